@@ -35,7 +35,8 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
   return overrides;
 }
 
-/// @throws InputError if a continued run would replace the results of another one without being told to
+/// Returns the path of the results file. @throws InputError if a continued run would replace the results of another
+/// one, unless the user asks for it
 std::string default_results(const std::string& model, const std::string& chosen_case, const std::string& restart) {
   namespace fs = std::filesystem;
   const std::string ending = chosen_case.empty() ? ".h5" : fmt::format("_{}.h5", chosen_case);

@@ -13,7 +13,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double apart = -1;  ///< value in place of a damping
+constexpr double apart = -1;  ///< takes the place of the damping of a pair that is apart
 
 }  // namespace
 
@@ -172,7 +172,7 @@ Vector3 Contact::middle(const LocalState& state, int k) const {
   return node.x + node.R * shape(k).frame.x;
 }
 
-/// The reference is valid until the next call in the same thread.
+/// Returns the bounds of the shapes. The reference is valid until the next call in the same thread.
 const std::vector<NearPairs::Bound>& Contact::bounds(const LocalState& state) const {
   thread_local std::vector<NearPairs::Bound> bounds;
   bounds.resize(shapes_.size());
@@ -276,7 +276,7 @@ Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart
   return all;
 }
 
-/// For a single pair the text gives the gap; for a group, the shapes that touch nothing.
+/// Returns a clause on open shapes. For a single pair it gives the gap; for a group, the shapes that touch nothing.
 std::string Contact::what_is_open(const LocalState& state) const {
   std::vector<bool> touches(shapes_.size(), false);
   bool any = false;

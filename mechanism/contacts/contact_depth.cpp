@@ -1,5 +1,5 @@
-// Detects shapes that press into each other beyond the depth at which they know the way out, and shapes that are drawn
-// into each other.
+// Detects shapes that penetrate deeper than the depth up to which the outward direction is determined, and shapes that
+// overlap in their drawn positions.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-/// Height of the middle of a shape over a plane [m].
+/// Returns the height of the middle of a shape over a plane [m].
 double Contact::height_of_middle(const LocalState& state, int plane, int other) const {
   const NodeState &of_plane = state.node(local_node(plane)), &of_other = state.node(local_node(other));
   const Frame &P = shape(plane).frame, &O = shape(other).frame;
@@ -44,8 +44,8 @@ void Contact::check_depth(const LocalState& state, int pair, const PairForce::Ne
         name(), state.time(), pair_name(pair), most));
 }
 
-/// Returns whether the normal has reversed since the last accepted step: lines and points have no interior in which
-/// they could be found.
+/// Returns whether the normal has reversed since the last accepted step. Only this shows that lines or points have
+/// passed through each other, since they have no interior.
 bool Contact::has_turned_over(const LocalState& state, int pair, const PairForce::Nearest& found) const {
   const auto memory = state.memory();
   if (!(state.time() > memory[0])) return false;

@@ -55,7 +55,8 @@ void Contact::check_passage(const LocalState& state) const {
 }
 
 bool Contact::has_surface(int a, int b) const {
-  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness())) return false;  // solid everywhere below
+  // A half-space is solid everywhere below.
+  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness())) return false;
   return shape(a).kind == ContactShape::Kind::surface || shape(b).kind == ContactShape::Kind::surface;
 }
 
@@ -90,7 +91,7 @@ void Contact::check_passage_of(const LocalState& state, int pair, const Vector3&
   const auto gap = [&](double share) { return nearest_before(state, pair, share * way).gap; };
   const auto presses = [&](double share) { return gap(share) < 0; };
   const double thickness = shape(a).thickness() + shape(b).thickness();
-  // Shapes that touch might separate on the other side; rotating shapes might pass over each other.
+  // Shapes in contact might otherwise separate on the far side, and rotating shapes might pass each other unnoticed.
   const bool may_turn_over = turn > 0.25 * thickness && std::min(gap(0), gap(1)) < turn;
   if (presses(0) || presses(1) || may_turn_over)
     throw ComputationError(

@@ -142,7 +142,8 @@ struct ReadShapes {
   std::vector<int> group;  ///< shapes of one group do not touch; -1: in no group
 };
 
-/// Materials of surfaces that move act by friction alone, and bristles do not follow them.
+/// Checks that a surface whose material moves on its body has Coulomb friction: without friction the motion has no
+/// effect, and bristles do not follow it.
 void check_belts(const ReadShapes& read, const SurfaceLaw& law) {
   for (std::size_t k = 0; k < read.shapes.size(); ++k) {
     if (!read.shapes[k].has_belt()) continue;

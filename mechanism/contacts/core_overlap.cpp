@@ -68,7 +68,7 @@ Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, 
                               const PlacedShape<double>& core, bool edge_on_second) {
   const auto at = [&](double t) { return distance_to_core(a + t * (b - a), core); };
   double low = 0, high = 1;
-  constexpr int thirds = 60;  // relative width of 1e-10 of the length
+  constexpr int thirds = 60;  // the last interval is below 1e-10 of the length
   for (int k = 0; k < thirds; ++k) {
     const double one = low + (high - low) / 3, other = high - (high - low) / 3;
     if (at(one).distance < at(other).distance)

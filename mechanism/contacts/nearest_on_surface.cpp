@@ -50,9 +50,9 @@ Touch<double> nearest_of_disc_on(const OnSurface<double>& on, std::size_t corner
   std::vector<Vector3> from;
   Touch<double> nearest = of_middle;
   try {
-    // The disc is nearer than its middle.
+    // The nearest point of the disc is no farther from the surface than its middle.
     on.find_places_of_disc(corner, (1 + 1e-9) * (skin - of_middle.depth), places, from);
-  } catch (const ComputationError&) {  // it cuts the surface, which is nearer to its middle than to its rim
+  } catch (const ComputationError&) {  // the disc cuts the surface, and its middle is nearer than its rim
     nearest.depth = of_middle.depth + on.body().shape->dome_radius();
     return nearest;
   }
@@ -69,7 +69,8 @@ Touch<double> nearest_of_disc_on(const OnSurface<double>& on, std::size_t corner
   return nearest;
 }
 
-/// Finds edges of the shape that go through a triangle: the depth is that of the end farther behind.
+/// Finds the edges of the shape that pass through a triangle. The depth is that of the edge's end that is farther
+/// behind the triangle.
 Touch<double> deepest_piercing(const OnSurface<double>& on, const Ends<double>& edge, double skin) {
   const TriangleSurface& surface = on.triangles();
   const Vector3 a = on.along_axes(edge[0]), b = on.along_axes(edge[1]), low = a.cwiseMin(b), high = a.cwiseMax(b);

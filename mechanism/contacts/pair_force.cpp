@@ -29,7 +29,7 @@ T friction_slope(const FrictionLaw& law, const T& squared) {
   return compose(squared, sliding.h, 0.5 * sliding.slope_over_speed);
 }
 
-/// Positions and rates of the second shape as the first node sees them, along the increments
+/// Positions and rates of the second shape relative to the first node, along the increments
 /// [ds; dphi (R_12 -> exp(dphi~) R_12); d(sdot); d(turning)].
 template <class T>
 struct SeenFromFirst {
@@ -87,7 +87,7 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
-/// Velocity of a surface's material relative to its node.
+/// Returns the velocity of a surface's material relative to its node.
 template <class T>
 Triple<T> belt_at(const PlacedShape<T>& placed, const Triple<T>& place) {
   Triple<T> velocity, spin;
@@ -99,7 +99,7 @@ Triple<T> belt_at(const PlacedShape<T>& placed, const Triple<T>& place) {
   return velocity + cross(spin, place - placed.origin);
 }
 
-/// Velocity of the second surface's material relative to the first one's that their motion on the bodies adds.
+/// Returns the relative velocity of the two surfaces' materials that is due to their motions on the bodies (belts).
 template <class T>
 Triple<T> velocity_of_belts(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   Triple<T> u;
@@ -108,7 +108,7 @@ Triple<T> velocity_of_belts(const SeenFromFirst<T>& seen, const Triple<T>& place
   return u;
 }
 
-/// The motion from the last accepted state to this one, seen from the first body.
+/// The motion from the last accepted state to this one, relative to the first body.
 template <class T>
 class StepOfPair {
  public:
@@ -124,7 +124,7 @@ class StepOfPair {
     constexpr double half_a_turn = 1e-6;
     if (value_of(trace) > half_a_turn) turn_ = (T(1) / trace) * turn_;
   }
-  /// Displacement of the second body's material at a place.
+  /// Returns the displacement of the second body's material at a place.
   Triple<T> way_to(const Triple<T>& place) const {
     if (!bristles_.known) return {};
     const Triple<T> arm = place - seen_.s;
@@ -145,7 +145,7 @@ class StepOfPair {
   Triple<T> turn_;  ///< q/w
 };
 
-/// Returns the magnitude |v|. It has no derivative at rest; there nothing that depends on it changes.
+/// Returns the magnitude |v|. It has no derivative at v = 0; zero is used there, because no result depends on it.
 template <class T>
 T size_of(const Triple<T>& v) {
   const T squared = dot(v, v);
@@ -317,7 +317,7 @@ void PairForce::add_bristles(const SurfaceLaw& law, const Bristles& bristles, st
   }
 }
 
-/// Returns the place in the axes in which it is stored: those in which it moves the least.
+/// Returns the place in the axes in which it is stored: those of the surface if one of the shapes is a surface.
 Vector3 PairForce::kept_place(const Vector3& place) const {
   const bool on_second = second_.kind == ContactShape::Kind::surface;
   return on_second ? Vector3(R_12_.transpose() * (place - s_)) : place;
@@ -332,7 +332,7 @@ const std::vector<int>& PairForce::match(const std::vector<Touch<T>>& touches, c
   const std::vector<Bristle>& before = bristles.before;
   if (before.empty()) return result;
   const bool surface = first_.kind == ContactShape::Kind::surface || second_.kind == ContactShape::Kind::surface;
-  // A bristle that is farther away belongs to another place: for a ball, the limit is less than a sixth of its
+  // A bristle beyond this distance belongs to another place. On a ball, the limit is less than a sixth of the
   // circumference.
   const double skin = first_.skin() + second_.skin();
   const double most = surface ? skin * skin : std::numeric_limits<double>::infinity();

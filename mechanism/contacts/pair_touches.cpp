@@ -87,7 +87,7 @@ class Gathered {
   }
 
  private:
-  /// The force that a crossing takes over from a corner is no longer part of the corner's load.
+  /// Removes the force that a crossing takes over from a corner from the corner's load.
   void unload(int number, const T& force) {
     if (number < 0) return;
     T& load = result_.touches[static_cast<std::size_t>(number)].load;
@@ -132,7 +132,7 @@ void gather_on_surface(const PairOfShapes<T>& pair, Gathered<T>& gathered) {
       const int number = gathered.add(touch, static_cast<int>(32 * on.side() + k));
       if (number >= 0) corner_touches[k].push_back(number);
     });
-  if (body.kind == Kind::sphere) return;  // only its middle is compared
+  if (body.kind == Kind::sphere) return;  // a sphere is compared by its middle only
   const TriangleSurface::Outstanding near = on.outstanding(0);
   std::vector<int> tip_touch;
   for (const int tip : near.tips)

@@ -113,7 +113,8 @@ int TriangleSurface::build_node(int begin, int end) {
   return static_cast<int>(index);
 }
 
-/// C. Ericson, Real-time collision detection (2005), 5.1.5: cases by the regions around the triangle.
+/// The method is that of C. Ericson, Real-time collision detection (2005), 5.1.5: cases by the regions around the
+/// triangle.
 TriangleSurface::Nearest TriangleSurface::nearest(int triangle, const Vector3& p) const {
   const Triangle& corners = triangles_[static_cast<std::size_t>(triangle)];
   const Vector3 &a = points_[static_cast<std::size_t>(corners[0])], &b = points_[static_cast<std::size_t>(corners[1])],

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers are finite: JSON has no others.
+/// Returns a vector as a list. The numbers are finite, because JSON cannot represent others.
 Json json_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 /// Writes a place into an object; a position or rotation that is zero is left out.
@@ -82,7 +82,7 @@ Json json_of(const DrawnItem& item, const DrawnMechanism& mechanism, const Drawn
 }  // namespace
 
 DrawnMeshes::DrawnMeshes(const Drawing& drawing) {
-  std::multimap<std::size_t, std::size_t> of_size;  // meshes by their number of points
+  std::multimap<std::size_t, std::size_t> of_size;  // meshes, by number of points
   std::set<std::string> names;
   for (const DrawnItem& item : drawing.items()) {
     if (!item.mesh || index_.contains(item.mesh.get())) continue;

@@ -11,12 +11,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Entries of joints whose constraints are set aside, each once: "joints/main".
+/// Returns the entries of joints whose constraints are set aside, each once: "joints/main".
 std::vector<std::string> entries_set_aside(const CheckedModel& checked) {
   std::vector<std::string> entries;
   const std::vector<Slots>& slots = checked.system.slots();
   std::size_t member = 0;
-  for (const int multiplier : checked.redundant) {  // ascending, as the slots of the members are
+  for (const int multiplier : checked.redundant) {  // both these and the slots of the members are in ascending order
     while (multiplier >= slots[member].multiplier_begin + slots[member].multipliers) ++member;
     const std::string entry = results_path(checked.file.model.members()[member].entry);
     if (entries.empty() || entries.back() != entry) entries.push_back(entry);

@@ -106,7 +106,7 @@ const std::vector<ComponentType>& component_table() {
 
 namespace {
 
-/// Returns a clause that names the type by which other programs' name for it goes here, or nothing.
+/// Returns a clause with this program's name for a type that other programs call `wanted`; no value if there is none.
 std::optional<std::string> own_name(Section section, const std::string& wanted) {
   std::vector<std::string> types;
   for (const ComponentType& type : component_table()) types.emplace_back(type.name);
@@ -119,7 +119,7 @@ std::optional<std::string> own_name(Section section, const std::string& wanted) 
   return clause;
 }
 
-/// Returns a clause that names the section of a type from another section, or nothing.
+/// Returns a clause that names the section to which a type belongs, if it is another one; no value otherwise.
 std::optional<std::string> where_it_belongs(Section section, const std::string& wanted) {
   for (const ComponentType& type : component_table())
     if (type.section != section && wanted == type.name) {
@@ -128,7 +128,7 @@ std::optional<std::string> where_it_belongs(Section section, const std::string& 
                        : fmt::format("; `{}` is a section of its own: write it there, without a type",
                                      section_name(type.section));
     }
-  // A user may take these names for types, but they belong to sections: hydraulics, measures, ..
+  // Users may write these names as types, although they are sections, or belong to them.
   static const std::vector<std::pair<std::string, std::string>> others = {
       {"measure", "measures"},   {"input", "inputs"},           {"event", "events"},        {"node", "nodes"},
       {"line", "hydraulics"},    {"volume", "hydraulics"},      {"junction", "hydraulics"}, {"supply", "hydraulics"},

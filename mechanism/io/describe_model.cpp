@@ -21,7 +21,7 @@ namespace {
 constexpr std::array described_sections = {Section::elements, Section::joints,     Section::drives,   Section::loads,
                                            Section::states,   Section::hydraulics, Section::measures, Section::events};
 
-/// Measures created by formulas for internal use are no entries of the file.
+/// Returns whether a member is an entry of the file, and not a measure that a formula has created for internal use.
 bool is_own(const Member& member) {
   return member.entry.section != Section::measures || member.recorded != Recorded::no;
 }
@@ -42,7 +42,8 @@ std::string count_line(const std::string& title, const std::string& noun, const 
 /// Counts the entries of each type. A beam counts once, for any number of elements.
 std::string count_entries(const Model& model) {
   std::string text;
-  std::map<std::string, int> in_joints;  // actions in joints: several are possible in one joint
+  // Actions in joints, which are counted one by one, because a joint may have several.
+  std::map<std::string, int> in_joints;
   for (const Section section : described_sections) {
     std::map<std::string, int> types;
     for (const std::string& name : model.names_in(section)) {
@@ -73,7 +74,8 @@ std::string describe_entries(const Model& model, const System& system, const Sta
       std::string type;
       for (const std::size_t m : model.members_of(entry)) {
         const Member& member = model.members()[m];
-        if (member.entry != entry || !is_own(member)) continue;  // a drive in its joint is an entry of its own
+        // A drive is an entry of its own, although its joint contains it.
+        if (member.entry != entry || !is_own(member)) continue;
         if (type.empty()) type = member.component->type();
         member.component->describe(LocalState(state, system.slots()[m], model.environment), description);
       }
@@ -133,7 +135,7 @@ std::string describe_unused(const Model& model, const System& system) {
   for (const Node& node : model.nodes())
     if (node.carrier) used[static_cast<std::size_t>(*node.carrier)] = true;
   std::string text;
-  for (std::size_t k = 1; k < used.size(); ++k)  // the ground comes first, and may have none
+  for (std::size_t k = 1; k < used.size(); ++k)  // the ground comes first, and may have no components
     if (!used[k])
       text +=
           fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.nodes()[k].name);

@@ -16,7 +16,8 @@ namespace {
 
 /// Links of machines are shorter than this in metres, and longer in millimetres [m].
 constexpr double longest_usual = 10;
-/// Ratio of radius of gyration to the distance of joints: 0.29 for a bar, a thousandth of it in such models.
+/// Smallest usual ratio of the radius of gyration to the distance of joints. A bar has a ratio of 0.29, and a thousandth
+/// of this if units are mixed up.
 constexpr double least_usual = 1.0 / 300;
 
 /// Returns the points at which joints act on each node, in the inertial frame at the start.
@@ -33,7 +34,7 @@ std::map<int, std::vector<Vector3>> attachments(const Model& model) {
 }
 
 double largest_distance(const std::vector<Vector3>& points) {
-  constexpr std::size_t most = 20;  // this number is sufficient for a body with more joints
+  constexpr std::size_t most = 20;  // this number of joints is sufficient also for bodies with more
   double largest = 0;
   for (std::size_t i = 0; i < std::min(points.size(), most); ++i)
     for (std::size_t j = 0; j < i; ++j) largest = std::max(largest, (points[i] - points[j]).norm());

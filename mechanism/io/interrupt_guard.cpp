@@ -12,8 +12,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// One interruption may arrive twice: `timeout` sends its signal to the program and to its group, and a terminal that
-/// is closed to both the shell and its programs.
+/// One interruption may arrive twice within this time: `timeout` sends its signal to the program and to its group, and
+/// a closed terminal sends it to the shell and to its programs.
 constexpr std::int64_t one_interruption = 500'000'000;  // [ns]
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -26,7 +26,7 @@ std::int64_t monotonic_time() {
   return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
-/// A later interruption ends the program at once, as without a guard.
+/// Records the first interruption. A later one ends the program at once, as without a guard.
 void note(int signal) {
   if (!interrupted) {
     first_interruption = monotonic_time();

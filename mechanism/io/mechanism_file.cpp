@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& se
   return entries;
 }
 
-/// Paths of the shapes by which nodes and elements are drawn: "elements.arm.shape".
+/// Returns the paths of the shapes by which nodes and elements are drawn: "elements.arm.shape".
 std::set<std::string> paths_of_shapes(const YamlValue& root) {
   std::set<std::string> paths;
   for (const char* section : {"nodes", "elements"})
@@ -47,7 +47,8 @@ std::set<std::string> paths_of_shapes(const YamlValue& root) {
   return paths;
 }
 
-/// Returns the values that the motion of the model follows from: a run may go on with other shapes.
+/// Returns the values on which the motion of the model depends. Shapes are excluded, because a run may continue with
+/// other ones.
 std::vector<std::pair<std::string, std::string>> digest_of_model(const YamlValue& root) {
   auto digest = root.digest({"mechanism", "parameters", "analysis", "output"});
   const std::set<std::string> shapes = paths_of_shapes(root);

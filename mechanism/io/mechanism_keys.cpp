@@ -14,7 +14,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Returns a table with a variant for each type. @param of_word  the word `type`: "a type of analysis"
+/// Returns a table with a variant for each type. @param of_word  description of the value of `type`: "a type of
+/// analysis"
 template <class Types, class Is>
 KeyTable by_type(const Types& types, const Is& is, const char* of, const char* about, const std::string& of_word) {
   KeyTable table{of, about, {}, {}};
@@ -65,7 +66,7 @@ namespace {
 
 const KeyTable& part_definition_keys();
 
-/// Sections of a model and of a part.
+/// Returns the sections of a model and of a part.
 std::vector<Key> section_keys() {
   using namespace keys;
   return {

@@ -87,7 +87,7 @@ PrescribedMotion read_motion(const YamlValue& value) {
                                            value.at("displacement").number());
 }
 
-/// The directions in which a node is held, along axes whose columns are inertial components.
+/// The directions in which a node is held, along the columns of `axes`, which are inertial components.
 struct Holds {
   std::array<bool, 6> fixed{};
   Matrix3 axes = Matrix3::Identity();
@@ -115,8 +115,8 @@ Holds read_fixed(const YamlValue& entry, const Frame& frame) {
   return holds;
 }
 
-/// Returns the directions that a constraint holds: one rotation alone, and along axes that are not the inertial ones
-/// all but three displacements or three rotations together.
+/// Returns the directions that are held by a constraint instead of being removed: a single rotation; and, along axes
+/// other than the inertial ones, one or two displacements, or two rotations.
 std::array<bool, 6> constrained(const Holds& holds) {
   std::array<bool, 6> result{};
   for (const std::ptrdiff_t first : {0, 3}) {
@@ -188,7 +188,7 @@ class NodeReader {
   }
 
   Frame frame(const std::string& name) {
-    // A loop, not a recursion: any number of nodes may be placed relative to each other.
+    // A loop is used instead of a recursion, because any number of nodes may be placed relative to each other.
     std::vector<std::string> open = {name};  // nodes whose place is sought, each relative to the next one
     std::set<std::string> names = {name};
     Frame frame;

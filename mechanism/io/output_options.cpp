@@ -25,7 +25,7 @@ const KeyTable& only_keys() {
   return table;
 }
 
-/// Returns the names of a part, "blade.tip", "blade.pump.rod", among others.
+/// Returns those names that belong to a part: "blade.tip", "blade.pump.rod".
 std::vector<std::string> names_of_part(const std::string& part, const std::vector<std::string>& available) {
   std::vector<std::string> names;
   std::copy_if(available.begin(), available.end(), std::back_inserter(names),
@@ -50,7 +50,7 @@ void read_only(const YamlValue& only, Model& model) {
       for (std::string& each : meant)
         if (!wanted.insert(std::move(each)).second) item.fail("is named twice");
     }
-    // An element in pieces represents them.
+    // The pieces of an element record under its name.
     for (const std::string& name : std::set<std::string>(wanted))
       for (const std::size_t m : model.members_of({section, name}))
         if (const Entry& results = model.members()[m].results; results.section == section) wanted.insert(results.name);
@@ -59,8 +59,8 @@ void read_only(const YamlValue& only, Model& model) {
   }
 }
 
-/// Calls act(component, name of the element, entry) for `key: {rod: entry}` and each component of the element (the
-/// pieces of a body); the elements record.
+/// Calls act(component, name of the element, entry) for `key: {rod: entry}` and each component of the element: a body
+/// in pieces has several.
 template <class Act>
 void for_each_element(const YamlValue& entries, Model& model, Act&& act) {
   const std::vector<std::string> names = model.names_in(Section::elements);
@@ -72,7 +72,7 @@ void for_each_element(const YamlValue& entries, Model& model, Act&& act) {
   }
 }
 
-/// Runs a function that may throw without the position in the file, and adds this position.
+/// Runs a function, and adds the position in the file to its exceptions.
 template <class Act>
 void at_place_of(const YamlValue& value, Act&& act) {
   try {

@@ -17,7 +17,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Messages of a session are shown to the user.
+/// Shows the messages of a session to the user.
 class ShownNotes : public Notes {
  public:
   ShownNotes(Progress& progress, Notes* others) : progress_(progress), others_(others) {}
@@ -34,12 +34,12 @@ class ShownNotes : public Notes {
   Notes* others_;
 };
 
-/// A run that was killed at its very beginning leaves the header of an HDF5 file.
+/// Size of the header of an HDF5 file [bytes], which is all that a run leaves if it is killed at its very beginning.
 constexpr std::uintmax_t bare_head = 96;
 
 bool holds_results(const std::string& path) { return root_text_attribute(path, "format") == "bielle results"; }
 
-/// If a run fails and its new file contains no results, the file is removed: a full disk truncates files.
+/// Removes a new file without results if the run fails. (A full disk, for example, truncates files.)
 class Remains {
  public:
   explicit Remains(std::string path) : path_(std::move(path)), thrown_(std::uncaught_exceptions()) {
@@ -152,7 +152,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     const Analysis& analysis = *file.analyses[k];
     const int number = static_cast<int>(k) + 1;
     if (checkpoint && number < checkpoint->analysis) continue;
-    // Analyses that do not call back (eigen, frequency_response) run to their end, unless they are interrupted again.
+    // Analyses without callbacks (eigen, frequency_response) run to their end, unless they are interrupted again.
     if (guard && guard->asked()) guard->end_run(fmt::format("before analysis {}", number));
     present = &analysis;
     progress.start(analysis.type());

@@ -13,11 +13,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Types whose forces on a node are there from the beginning: a contact or a brake may act later.
+/// Types whose forces on a node act from the beginning. A contact or a brake, in contrast, may act only later.
 const std::set<std::string> steady_types = {"point_mass", "rigid_body", "spring_damper", "distance",
                                             "spherical",  "cable",      "load"};
 
-/// Nodes that are to turn at the start are left out: the rate would be lost.
+/// Returns whether a node can be given inertia for its rotations. Nodes with an angular velocity at the start are left
+/// out, because this rate would be lost.
 bool turns_freely(const Node& node) {
   return !node.carrier && node.angular_velocity.isZero(0) &&
          std::all_of(node.freedom.begin() + 3, node.freedom.end(),
@@ -30,7 +31,7 @@ bool has_a_line(const RigidBody& body) {
   return J.isZero() || J.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() <= slender * J.trace();
 }
 
-/// Bodies without inertia about some axis, by their nodes. Nodes with parts of other types are left out.
+/// Returns bodies without inertia about some axis, by their nodes. Nodes with parts of other types are left out.
 std::map<int, RigidBody*> slender_bodies(const Model& model) {
   std::map<int, RigidBody*> bodies;
   for (const Member& member : model.members())
@@ -65,8 +66,8 @@ void settle_idle_rotations(Model& model) {
       node.angular_velocity.setZero();
       continue;
     }
-    // No moment acts about these axes, and a rod has equal moments of inertia about all axes normal to its line: any
-    // inertia gives the same motion.
+    // The motion does not depend on this inertia: no moment acts about these axes, and a rod has equal moments of
+    // inertia about all axes normal to its line.
     RigidBody& body = *bodies.at(idle.node);
     const MassProperties& properties = body.properties();
     const double own = properties.inertia_about_origin().trace();

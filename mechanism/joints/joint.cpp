@@ -67,7 +67,7 @@ double Joint::counted(std::size_t index, const LocalState& state, const Coordina
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
-  // A start value is the value of the coordinate, for any fraction of the motions in statics.
+  // A start value that is not due to a motion holds for any fraction of the motions in statics.
   if (std::isnan(time_before) && !start_[index].by_motion) return unwrap_angle(principal.value, memory[at]);
   return counted_angle(principal, {memory[at], memory[at + 1]}, time_before, state);
 }
@@ -136,7 +136,7 @@ void Joint::declare(Declaration& declaration) const {
 
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    if (coordinates_[k].kind != JointCoordinate::Kind::angle) continue;  // only turns are counted
+    if (coordinates_[k].kind != JointCoordinate::Kind::angle) continue;  // only angles have turns
     const auto [value, rate] = coordinate(k, state);
     memory.segment<2>(2 * static_cast<Eigen::Index>(k)) << value, rate;
   }
@@ -180,7 +180,7 @@ void Joint::write_output(const LocalState& state, double* values) const {
 }
 
 std::vector<SlidingSurface> Joint::sliding_surfaces() const {
-  // A joint that is elastic in all directions, or whose reaction depends on rates, is no pair of surfaces.
+  // A joint that is elastic in all directions, or whose reaction depends on rates, has no sliding surfaces.
   if (coordinates_.empty() || coordinates_.size() > 3 || reaction_has_rates()) return {};
   SlidingSurface all;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) all.coordinates.push_back(k);

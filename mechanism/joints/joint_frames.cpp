@@ -135,7 +135,8 @@ JointFrames read_joint_place(const YamlValue& entry, const Model& model) {
     frames.on_first.x = points[0];
     frames.on_second.x = points[1];
   } else if (!position && frames.first != ground) {
-    // A joint of a part with the ground belongs at the part: the origin of the ground is no place of a machine.
+    // A joint between a part and the ground is at the part, because the origin of the ground is not a point of the
+    // machine.
     constexpr double rounding = 1e-9;  // [m]
     const double distance = (second.x - first.x).norm();
     if (distance > rounding) frames.arm = distance;

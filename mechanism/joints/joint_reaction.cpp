@@ -35,8 +35,8 @@ struct Wrench {
   }
 };
 
-/// The joint's K, whose columns of multipliers contain B^T; or its C. Each object has its own memory: the forces of a
-/// bushing with a film may depend on the reaction of another joint, which is computed meanwhile.
+/// The joint's K, which contains B^T in the columns of multipliers, or its C. Each object has its own memory, because
+/// the forces of a bushing with a film may depend on the reaction of another joint, which is computed meanwhile.
 class JointTangent {
  public:
   JointTangent(const Joint& joint, const LocalState& state, bool by_rates = false)

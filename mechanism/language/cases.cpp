@@ -21,7 +21,7 @@ std::vector<std::string> case_names(const Tree& root, const std::string& file) {
 
 namespace {
 
-/// Checks the keys and parameters of a case, chosen or not. @param known  parameters of the file
+/// Checks the keys and parameters of a case, whether or not it is the chosen one. @param known  parameters of the file
 void check_case(const YamlValue& entry, const KeyTable& case_keys, const std::vector<std::string>& known) {
   const YamlValue keyed = entry.keyed(case_keys);
   if (const auto parameters = keyed.find("parameters"))

@@ -12,7 +12,7 @@ namespace {
 
 using UseScope = std::function<void(const Scope&)>;
 
-constexpr int most = 1'000'000;  ///< most entries that one makes
+constexpr int most = 1'000'000;  ///< largest number of entries from one entry
 
 /// Evaluates a number that has no unit.
 double pure_number(const YamlNode& node, const Scope& scope, const std::string& path) {
@@ -28,7 +28,7 @@ int whole_number(const YamlNode& node, const Scope& scope, const std::string& pa
   return static_cast<int>(value);
 }
 
-/// Refuses a name of a number, or word, that means something else already.
+/// Refuses a name of a number or word that has a meaning already.
 void check_name_of_number(const std::string& name, const Scope& scope, const YamlNode& place, const std::string& path) {
   check_word(name, place, *scope.main_file, path);
   bool is_known = scope.parameters->count(name) > 0;
@@ -43,11 +43,11 @@ void check_name_of_number(const std::string& name, const Scope& scope, const Yam
 struct Repetition {
   std::vector<Tree> directions;
   std::string path;     ///< path of the entry, for messages
-  const UseScope* use;  ///< nullptr: the entries are counted
-  int entries = 0;      ///< number of those so far
+  const UseScope* use;  ///< nullptr: the entries are only counted
+  int entries = 0;      ///< number of entries so far
 };
 
-/// Counts entries of the last direction. @returns whether there is nothing else to do with them
+/// Counts entries of the last direction. @returns whether counting is all that is required
 bool only_counts(Repetition& repetition, std::size_t direction, std::size_t entries, const Scope& scope) {
   if (repetition.use || direction + 1 < repetition.directions.size()) return false;
   repetition.entries += static_cast<int>(entries);
@@ -69,7 +69,7 @@ void for_each_number(Repetition& repetition, std::size_t direction, const Scope&
   if (const Tree over = find_value(repeat, "over")) {
     if (find_pair(repeat, "count") || find_pair(repeat, "from"))
       fail_at(repeat, *scope.main_file, place, "`over` lists the words: `count` and `from` do not go with it");
-    for (const YamlValue& item : keys.at("over").items()) item.text();  // refuses what is no list of words
+    for (const YamlValue& item : keys.at("over").items()) item.text();  // throws if it is not a list of words
     if (only_counts(repetition, direction, over->items.size(), scope)) return;
     for (const Tree& item : over->items) {
       Scope local = scope.inner();
@@ -124,7 +124,8 @@ void for_each_entry(const YamlNode& section, const Scope& scope, const std::stri
     if (repeat->kind == YamlNode::Kind::sequence) repetition.directions = repeat->items;
     if (repetition.directions.empty())
       fail_at(*repeat, *scope.main_file, place + ".repeat", "expected a repetition, or a list of one or more");
-    for_each_number(repetition, 0, scope);  // conditions of a million entries would take half a minute
+    // Counts first, because the conditions of a million entries would take half a minute.
+    for_each_number(repetition, 0, scope);
     repetition.use = &use_one;
     for_each_number(repetition, 0, scope);
   }

@@ -18,7 +18,7 @@ bool has_all_keys(const KeyTable& table, const YamlNode& map) {
                      [&](const YamlNode::Pair& pair) { return table.find(pair.key->scalar) != nullptr; });
 }
 
-/// Returns the table of a map: of several ones that which has all its keys.
+/// Returns the table of a map. Among several tables it is the one that has all keys of the map.
 const KeyTable* table_of(const KeyForms& forms, const YamlNode& map) {
   const KeyTable* first = nullptr;
   for (const KeyForm& form : forms) {
@@ -48,16 +48,17 @@ bool has_inertial_orientation(const KeyTable& table) {
   return matrix && matrix->forms.front().inertial;
 }
 
-/// Returns whether a value names the ground, whose axes are the inertial ones: those in which the part is written.
+/// Returns whether a value names the ground. Its axes are the inertial ones, in which the part is written.
 bool is_ground(const Tree& node) { return node && node->scalar == "ground"; }
 
-/// Returns whether the position and orientation in a map are relative to a node, which is placed itself.
+/// Returns whether the position and orientation in a map are relative to a node. They stay unchanged, because this node
+/// is placed itself.
 bool is_relative_frame(const KeyTable& table, const YamlNode& map) {
   const Tree at = find_value(map, "at");
   return has_inertial_orientation(table) && at && !is_ground(at);
 }
 
-/// Returns the nodes to which items of a list in a map belong, such as `at: [[..], [..]]`.
+/// Returns the nodes to which the items of a list in a map belong, such as those of `at: [[..], [..]]`.
 std::vector<Tree> nodes_of_lists(const KeyTable& table, const YamlNode& map) {
   if (const Tree nodes = find_value(map, "nodes")) return nodes->items;
   if (!table.find("relative_to")) return {};
@@ -72,7 +73,7 @@ Tree node_of_vectors(const YamlNode& map) {
   return type && type->scalar == "node_force" && nodes->items.size() == 2 ? nodes->items[1] : nullptr;
 }
 
-/// Returns whether the components of a vector in a map are along axes of a node after all.
+/// Returns whether other keys of a map turn the components of a vector into those along a node's axes.
 bool is_along_own_axes(const std::string& key, const YamlNode& map) {
   const Tree seen_from = find_value(map, "relative_to");
   if (key == "direction") return seen_from && !is_ground(seen_from);
@@ -85,7 +86,7 @@ bool is_along_own_axes(const std::string& key, const YamlNode& map) {
   return along != "inertial" && !is_ground(nodes->items[along == "second"]);
 }
 
-/// Sets the items of a list that belong to the ground along inertial axes.
+/// Marks the items of a list that belong to the ground as components along inertial axes.
 void along_ground(KeyForm& list, const std::vector<Tree>& nodes) {
   if (list.kind != KeyForm::Kind::list || list.geometry != KeyForm::Geometry::none || list.items.empty()) return;
   const KeyForms last = list.items.back();
@@ -96,7 +97,7 @@ void along_ground(KeyForm& list, const std::vector<Tree>& nodes) {
   }
 }
 
-/// Returns the forms of a key in a map in which other keys change their geometry.
+/// Returns the forms of a key with the geometry that other keys of the map give them.
 KeyForms forms_in(const Key& key, const KeyTable& table, const YamlNode& map) {
   KeyForms forms = key.forms;
   const bool own = (key.name == "position" && is_relative_frame(table, map)) || is_along_own_axes(key.name, map);
@@ -136,7 +137,7 @@ Tree EntryWriter::write(const Tree& value, const KeyForms& forms, const std::str
     const Tree point = write_map(*value, body_point_keys(), path);
     return make_scalar(make_point_(*point, path), *value);
   }
-  return value;  // the reader of the entry refuses it
+  return value;  // the reader of the entry reports the error
 }
 
 Tree EntryWriter::write_map(const YamlNode& map, const KeyTable& table, const std::string& path) const {
@@ -197,7 +198,8 @@ Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const st
   return result(formula);
 }
 
-/// Returns a direction that is named by a word, `x`, in the axes of its place; null if it stays the same, or is none.
+/// Returns a direction that is named by a word, `x`, in the axes of its place; null if it does not change, or if the
+/// text is not a direction.
 Tree EntryWriter::place_word(const YamlNode& node, const std::string& text, const KeyForms& forms) const {
   if (text != "x" && text != "y" && text != "z") return nullptr;
   for (const KeyForm& form : forms) {
@@ -270,7 +272,7 @@ Tree EntryWriter::place_vector(const Tree& list, const KeyForm& form, const std:
   return make_list(std::move(placed), *list);
 }
 
-/// Gives an entry with an orientation that of its place.
+/// Transforms the position and orientation of an entry to its place.
 Tree EntryWriter::place_frame(const YamlNode& map, const KeyTable& table) const {
   const bool on_ground = !has_inertial_orientation(table) && is_ground(find_value(map, "node"));
   const bool inertial = on_ground || (has_inertial_orientation(table) && !is_relative_frame(table, map));

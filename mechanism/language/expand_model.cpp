@@ -20,7 +20,7 @@ namespace {
 
 /// Sections whose names are words in formulas.
 const std::vector<std::string> measure_sections = {"states", "measures", "inputs", "events"};
-/// Sections of a file that a part does not bring along: they belong to the model in which it is placed.
+/// Sections that a part does not contribute to the model in which it is placed.
 const std::vector<std::string> sections_of_model = {"mechanism", "gravity", "analysis", "output", "cases"};
 
 /// Returns the forms of the entries of a key; null if its value has none.
@@ -107,7 +107,7 @@ class Expander {
     for (const auto& [name, entry] : merged) check_place(name, entry, scope);
   }
 
-  /// Refuses what a node of a part would lose if it is a node of the surroundings.
+  /// Refuses keys of a part's node that would be lost because it is merged with a node of the surroundings.
   void check_merged(const std::string& name, const YamlNode& node, const YamlNode& outside, const Scope& scope,
                     const std::string& path) const {
     for (const char* key : {"fixed", "motion", "velocity", "angular_velocity"}) {
@@ -120,7 +120,7 @@ class Expander {
     }
   }
 
-  /// Checks that a node that is merged is at the place of the other one.
+  /// Checks that a merged node is at the place of the node of the surroundings.
   void check_place(const std::string& name, const Tree& entry, const Scope& scope) const {
     const YamlNode& outside = *scope.merged.at(name);
     const std::string path = "parts." + scope.prefix + "merge." + name;
@@ -174,13 +174,13 @@ class Expander {
   void place_part(const std::string& name, const Tree& entry, const Scope& outer, const Definitions& definitions) {
     const std::string path = "parts." + outer.prefix + name;
     if (++depth_ > 20) fail_at(*entry, file_, path, "parts contain each other more than 20 times over");
-    Scope unplaced = outer;  // names and numbers are those of the surroundings; the place is computed below
+    Scope unplaced = outer;  // names and numbers are those of the surroundings; the placement is computed below
     unplaced.placement = {};
     const Tree written = EntryWriter(unplaced, refuse_point_).write_map(*entry, part_keys(), path);
     YamlValue value = value_at(written, path, file_);
     value.set_parameters(parameters_);
     const YamlValue keyed = value.keyed(part_keys());
-    if (const auto part = keyed.find("part")) part->text();  // refuses what is no text, or no map
+    if (const auto part = keyed.find("part")) part->text();  // throws if it is not a text, or not a map
     if (const auto map = keyed.find("parameters")) map->entries();
     if (const auto map = keyed.find("merge"))
       for (const auto& [inside, outside] : map->entries()) outside.text();
@@ -240,9 +240,9 @@ class Expander {
                             names.empty() ? "; it has none" : did_you_mean(pair.key->scalar, names)));
   }
 
-  /// Collects the names of the entries of a part, to which its entries refer. @returns those of its nodes
+  /// Collects the names of a part's entries, to which other entries of the part refer. @returns the names of its nodes
   static std::vector<std::string> collect_names(const YamlNode& body, Scope& scope) {
-    std::vector<std::pair<std::string, bool>> names;  // and whether each is a word in formulas
+    std::vector<std::pair<std::string, bool>> names;  // each name, and whether it is a word in formulas
     std::vector<std::string> nodes;
     for (const YamlNode::Pair& pair : body.pairs) {
       const std::string& section = pair.key->scalar;

@@ -70,7 +70,7 @@ class Collector {
     const std::string is = identity(path);
     if (const auto above = std::find(open_.begin(), open_.end(), is); above != open_.end())
       fail_at(name, from, "include", fmt::format("'{}' includes itself{}", name.scalar, by_way_of(above)));
-    if (read_.count(is)) return;  // by way of another file
+    if (read_.count(is)) return;  // another file has included it before
     add(load(name, path, from, "include"), path);
   }
 

@@ -35,7 +35,7 @@ const std::vector<std::string> mirrored_joints = {"rigid",
                                                   "rack_and_pinion",
                                                   "contact"};
 
-/// Returns what keeps an entry from being mirrored; empty if nothing does.
+/// Returns the reason why an entry cannot be mirrored; empty if it can be.
 std::string fault_of_mirror(const YamlNode& entry, const std::string& section) {
   const Tree type = find_value(entry, "type");
   const std::string name = type ? type->scalar : "";
@@ -66,7 +66,8 @@ std::string fault_of_mirror(const YamlNode& entry, const std::string& section) {
   return {};
 }
 
-/// Returns whether held directions are the same ones in axes that are turned. Those of a mirror image always are.
+/// Returns whether the directions held by a node are the same after the axes are turned. A reflection never changes
+/// them.
 bool are_same_when_placed(const YamlNode& fixed, const Placement& placement) {
   if (placement.frame.R.isIdentity(0) || fixed.kind != YamlNode::Kind::sequence) return true;
   int translations = 0, rotations = 0;
@@ -74,7 +75,8 @@ bool are_same_when_placed(const YamlNode& fixed, const Placement& placement) {
   return (translations == 0 || translations == 3) && (rotations == 0 || rotations == 3);
 }
 
-/// Returns whether a prescribed motion is the same one in a mirror: along the mirror, or turning about its normal.
+/// Returns whether a prescribed motion is unchanged by a reflection: a displacement along the mirror, or a rotation
+/// about its normal.
 bool is_same_when_placed(const YamlNode& motion, const Placement& placement) {
   if (!placement.frame.R.isIdentity(0)) return false;
   const char normal = static_cast<char>('x' + placement.mirrored);
@@ -117,7 +119,7 @@ Tree with_joint_axes(const Tree& placed, const std::string& axis_key, const KeyF
   if (!z && is_pair && nodes && !nodes->items.empty())
     if (const auto own = read_vector(*given->items[0], scope, path + "." + axis_key))
       z = node_frame(*nodes->items[0], path + ".nodes").R * *own;
-  if (!z) return placed;  // the reader of the joint refuses it
+  if (!z) return placed;  // the reader of the joint reports the error
   return with_second(placed, most_normal_axis((of_axis.transpose() * *z).normalized()));
 }
 
@@ -126,7 +128,7 @@ Tree with_second_of_first(const Tree& placed, const YamlNode& axes, const KeyTab
                           const std::string& path) {
   if (find_pair(*placed, "second_axis") || axes.items.empty()) return placed;
   const std::optional<Vector3> z = read_vector(*axes.items.front(), scope, path + ".axes");
-  if (!z) return placed;  // the reader of the joint refuses it
+  if (!z) return placed;  // the reader of the joint reports the error
   const Matrix3 of_axis = scope.placement.matrix(table.find("axis")->forms.front().geometry, true);
   const Vector3 x =
       scope.placement.matrix(Geometry::vector, true) * most_normal_axis((of_axis.transpose() * *z).normalized());

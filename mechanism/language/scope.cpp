@@ -41,7 +41,7 @@ bool Scope::replaces() const {
 }
 
 std::optional<std::string> Scope::name_of(const std::string& name) const {
-  // "left arm", "left arm.angle", "bay_2.root": the longest beginning that is a name
+  // Finds the longest beginning that is a name: "left arm", "left arm.angle", "bay_2.root".
   for (std::size_t end = name.size();; end = name.rfind('.', end - 1)) {
     if (end == std::string::npos || end == 0) break;
     const std::string beginning = name.substr(0, end);
@@ -96,7 +96,8 @@ std::string Scope::text(const YamlNode& node, const std::string& path) const {
 
 double Scope::number(const YamlNode& node, const std::string& path) const {
   if (node.kind != YamlNode::Kind::scalar) fail_at(node, *main_file, path, "expected a number");
-  if (const auto plain = plain_number(node.scalar)) return *plain;  // most are: the parser of formulas takes 30 us
+  // Most numbers are plain; the parser of formulas would take 30 us.
+  if (const auto plain = plain_number(node.scalar)) return *plain;
   try {
     return evaluate(quantity_of(node.scalar) ? node.scalar : formula(node.scalar, {}), *parameters);
   } catch (const std::runtime_error& error) {

@@ -96,7 +96,7 @@ Tree WrittenModel::node(const std::string& name, const YamlNode& place, const st
 
 Frame WrittenModel::frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const {
   // A loop, not a recursion: any number of nodes may be placed relative to each other.
-  std::vector<std::pair<std::string, Tree>> open;  // nodes whose place is sought, each relative to the next one
+  std::vector<std::pair<std::string, Tree>> open;  // nodes to be placed, each relative to the next one
   std::set<std::string> names;
   Frame frame;
   Tree at = make_scalar(name, place);
@@ -148,7 +148,8 @@ Tree WrittenModel::node_of_point(const Carried& point, const YamlNode& body) con
 
 void WrittenModel::carry_nodes() {
   Section& elements = sections_["elements"];
-  std::map<std::size_t, std::vector<Tree>> also;  // nodes of each body: lists grow once, however many a body carries
+  // Nodes that each body carries, collected first so that each list grows only once.
+  std::map<std::size_t, std::vector<Tree>> also;
   for (const Carried& carried : carried_) {
     const auto found = elements.places.find(carried.body);
     if (found == elements.places.end())

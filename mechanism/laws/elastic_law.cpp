@@ -51,8 +51,8 @@ void ElasticLaw::declare(Declaration& declaration) const {
     Declaration::Scalar scalar{fmt::format("{} of branch {}", names_[k], unknown.branch + 1),
                                turning_[k] ? "rad" : "m"};
     scalar.equation_units = turning_[k] ? "rad/s" : "m/s";
-    scalar.scale =
-        1e-3;  // deflections of a millimetre, a milliradian: accuracies are relative to them, or to larger ones
+    // Accuracies are relative to a deflection of 1 mm or 1 mrad, or to larger ones.
+    scalar.scale = 1e-3;
     declaration.first_order.push_back(std::move(scalar));
   }
 }

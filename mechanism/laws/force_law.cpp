@@ -30,7 +30,7 @@ double gauss5(const Function& N, double from, double to) {
   return half * sum;
 }
 
-/// Halves the interval until the sum of both halves agrees with the whole: formulas may have kinks.
+/// Halves the interval until the sum of both halves agrees with the whole, because formulas may have kinks.
 template <class Function>
 double integral(const Function& N, double from, double to, double whole, int depth) {
   const double middle = 0.5 * (from + to);
@@ -101,7 +101,7 @@ LawForce ForceLaw::calc(const LocalState& state, double x, double v, bool split)
     law.N_v += gradient.by_variable[1];
   });
   if (!split) return law;
-  if (actuator_) {  // its force is defined by its power
+  if (actuator_) {  // the force of an actuator is defined by its power
     law.N_elastic = law.N_elastic_x = 0;
     return law;
   }

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// ln((1 + x)/(1 - e x)) - x (1 + e), x in [0, 1/e): zero at 0 and at delta(e), negative between them.
+/// Returns ln((1 + x)/(1 - e x)) - x (1 + e), x in [0, 1/e): zero at 0 and at delta(e), negative between them.
 double imbalance(double x, double e) { return std::log1p(x) - std::log1p(-e * x) - x * (1 + e); }
 
 }  // namespace

@@ -248,7 +248,7 @@ ElasticFormulas read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
   if (maxwell) {
     const auto branches = maxwell->items();
     if (branches.empty()) maxwell->fail("expected at least one branch {stiffness or factor, time}");
-    // A branch with zero relaxation time has no force.
+    // A branch with zero relaxation time has no force, and is omitted.
     for (const YamlValue& each : branches)
       if (const MaxwellBranch branch = read_branch(each, law.K); branch.time > 0) law.add(branch);
   }

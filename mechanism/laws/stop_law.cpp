@@ -25,7 +25,7 @@ double StopLaw::side_after(double q, double v) const {
 
 void StopLaw::add_energy(const Contact& contact, double v, Energy& energy) const {
   if (contact.side == 0) return;
-  // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
+  // The damper dissipates the energy of a spring that it prevents from pushing.
   energy.elastic += 0.5 * stiffness * contact.penetration * contact.penetration;
   energy.dissipation += (contact.N - contact.side * stiffness * contact.penetration) * v;
 }

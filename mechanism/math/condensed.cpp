@@ -215,7 +215,8 @@ CondensedLU::~CondensedLU() = default;
 
 FactorStatus CondensedLU::factor(const std::vector<double>& values, const VectorX& scale, Workers& workers) {
   condensed_ = !blocks_.empty() && condense(values, scale, workers);
-  // The factorisation of the whole matrix finds pivots elsewhere, or reports an unknown without pivot.
+  // If the blocks cannot be eliminated, the whole matrix is factorised. It may have pivots elsewhere; otherwise the
+  // unknown without a pivot is reported.
   return condensed_ ? FactorStatus::good : whole_.factor(values, scale);
 }
 

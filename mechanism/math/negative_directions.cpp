@@ -70,7 +70,8 @@ class GroupSizes {
 };
 
 constexpr double stiff = 100, give = 1e-12, indifferent = 1e-15;  // see the head of negative_directions.hpp
-/// Unknowns without stiffness of their own have only rounding errors left if B^T B mixes them in oblique axes.
+/// Bound and diagonal entry for unknowns without stiffness of their own. If B^T B mixes them in oblique axes, only
+/// rounding errors are left of them.
 constexpr double hardly_own = 1e-10, of_none = 1e-12;
 
 /// The matrix that is factorised, with scaled unknowns and with rows of B of length one.
@@ -89,7 +90,7 @@ class Saddle {
 
   int rows() const { return static_cast<int>(B_.rows()); }
 
-  /// Counts by eigenvalues on a basis of the null space of B: for small matrices whose pivots grow.
+  /// Counts by eigenvalues on a basis of the null space of B. This is used for small matrices whose pivots grow.
   int count_densely() const {
     constexpr double dependent = 1e-11, rounding = 1e-13;
     MatrixX allowed = MatrixX::Identity(K_.rows(), K_.rows());
@@ -127,9 +128,9 @@ class Saddle {
   }
 
  private:
-  /// A row of B comes immediately after the last of its unknowns, which B^T B couples with each other: it adds no fill.
-  /// Unknowns that have almost no stiffness of their own come last: as first pivots they would cause large element
-  /// growth.
+  /// A row of B comes immediately after the last of its unknowns. It adds no fill there, because B^T B couples them
+  /// already. Unknowns that have almost no stiffness of their own come last, because they would cause large element
+  /// growth as first pivots.
   void order() {
     constexpr double hardly = 1e-6;
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;

@@ -9,7 +9,7 @@ namespace {
 
 using Quaternion = UnitQuaternion::Parameters;
 
-/// 2 [-e, w I - e~]: linear in p; T of a unit quaternion.
+/// Returns 2 [-e, w I - e~]: linear in p; T of a unit quaternion.
 UnitQuaternion::Tangent left_operator(const Quaternion& p) {
   UnitQuaternion::Tangent L;
   const Vector3 e = p.tail<3>();

@@ -33,10 +33,10 @@ struct SineCosine {
       angles, a[0], a[1], a[2], where));
 }
 
-/// Returns an angle half a turn away, on the side of zero [rad].
+/// Returns the angle plus or minus half a turn, towards zero [rad].
 double half_turn_from(double angle) { return angle > 0 ? angle - std::numbers::pi : angle + std::numbers::pi; }
 
-/// D(T^-1)[u] = -T^-1 DT[u] T^-1
+/// Returns D(T^-1)[u] = -T^-1 DT[u] T^-1
 Matrix3 inverse_derivative(const Matrix3& inverse, const Matrix3& derivative) {
   return -(inverse * derivative * inverse);
 }

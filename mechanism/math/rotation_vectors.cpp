@@ -32,7 +32,7 @@ Vector3 rodrigues_of(const Quaternion& q) {
   return q.tail<3>() / q[0];
 }
 
-/// (cos(phi/2), sin(phi/2) e), scaled by the larger of 1 and |g| so that no square overflows.
+/// Returns (cos(phi/2), sin(phi/2) e), scaled by the larger of 1 and |g| so that no square overflows.
 Quaternion quaternion_of_rodrigues(const Vector3& g) {
   const double scale = std::max(1.0, g.cwiseAbs().maxCoeff());
   if (!std::isfinite(scale)) throw ComputationError("a Rodrigues vector must be finite");

@@ -84,7 +84,7 @@ struct SparseFactors<Scalar>::Factors {
 
 namespace {
 
-/// scaled = diag(left) A diag(right)
+/// Sets scaled = diag(left) A diag(right).
 template <class Scalar>
 void scale_entries(const SparsePattern& pattern, const std::vector<Scalar>& values, const VectorX& left,
                    const VectorX& right, std::vector<Scalar>& scaled) {
@@ -183,7 +183,7 @@ void SparseFactors<Scalar>::try_minimum_degree() {
   std::swap(f.symbolic, other.symbolic);
   std::swap(f.numeric, other.numeric);
   std::swap(f.known_cost, other.known_cost);
-  f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal
+  f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal and cause more fill
 }
 
 template <class Scalar>
@@ -216,7 +216,7 @@ void SparseFactors<Scalar>::forget() {
   present_intermittent_.clear();
 }
 
-/// Whether some value of a range is not zero: compares bits of many values at a time.
+/// Returns whether a range contains a nonzero value. It combines the bits of many values at a time.
 template <class Scalar>
 bool SparseFactors<Scalar>::any_in(const std::vector<Scalar>& values, const Range& range) {
   constexpr std::size_t parts = sizeof(Scalar) / sizeof(double);
@@ -281,7 +281,7 @@ void SparseFactors<Scalar>::solve(Eigen::Ref<Vector> b) const {
 
 namespace {
 
-/// Sign of a permutation.
+/// Returns the sign of a permutation.
 int sign_of(const int* permutation, int size) {
   std::vector<bool> seen(static_cast<std::size_t>(size), false);
   int sign = 1;

@@ -15,7 +15,7 @@ struct Workers::Team {
   std::condition_variable wanted, left;
   Work work{};
   std::atomic<std::size_t> next{0};     ///< number of the next piece
-  std::atomic<unsigned> round{0};       ///< how many times work has been distributed
+  std::atomic<unsigned> round{0};       ///< number of times that work has been distributed
   int at_work = 0;                      ///< number of other threads at work
   bool busy = false, stopping = false;  ///< work has been distributed; threads must end
   std::vector<std::thread> threads;

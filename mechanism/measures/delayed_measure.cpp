@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr Eigen::Index past_begins = 1;  // place of the history in the memory, after the disturbance
+constexpr Eigen::Index past_begins = 1;  // place of the history in the memory, which begins with the disturbance
 
 }  // namespace
 
@@ -73,7 +73,7 @@ bool DelayedMeasure::knows_memory(const LocalState& state) const {
   return state.memory()[disturbance] == 0 && history_.knows(past_of(state));
 }
 
-/// Kinks of the measure in time come back after the delay.
+/// Adds the kinks of the measure, each after the delay.
 void DelayedMeasure::add_break_points(std::vector<double>& times) const {
   std::vector<double> kinks;
   of_.add_break_points(kinks);

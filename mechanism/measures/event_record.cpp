@@ -56,7 +56,7 @@ EventRecord* find_event_record(const Model& model, const std::string& name) {
 }
 
 EventRecord& event_record_named_by(const YamlValue& value, const Model& model) {
-  component_named_by(Section::events, value, model);  // which refuses names of other things
+  component_named_by(Section::events, value, model);  // refuses names of other things
   EventRecord& record = *find_event_record(model, value.text());
   record.use();
   return record;

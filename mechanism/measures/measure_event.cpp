@@ -50,10 +50,10 @@ bool MeasureEvent::is_armed(const LocalState& state) const {
   return !after_ || EventRecord::has_happened(state.of(of_after_));
 }
 
-/// Computes the value; that of an event that cannot occur is zero: it has no side that could be left.
+/// Computes the value. It is zero for an event that cannot occur, because zero has no side that could be left.
 void MeasureEvent::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = is_armed(state) ? measure_.value(state.of(0)) - value_ : 0;
-  // A value that is reached exactly at the start is beyond.
+  // A value that is reached exactly at the start counts as beyond.
   if (at_start_ && values[0] == 0 && is_armed(state)) values[0] = -side_before() * std::numeric_limits<double>::min();
 }
 
@@ -101,7 +101,7 @@ void MeasureEvent::describe(const LocalState& /*state*/, Description& descriptio
 }
 
 const MeasureEvent& measure_event_named_by(const YamlValue& value, const Model& model) {
-  component_named_by(Section::events, value, model);  // which refuses names of other things
+  component_named_by(Section::events, value, model);  // refuses names of other things
   for (const Component* component : model.components_of({Section::events, value.text()}))
     if (const auto* event = dynamic_cast<const MeasureEvent*>(component)) return *event;
   throw std::logic_error("an event is asked for before events have been read");

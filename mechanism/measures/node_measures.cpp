@@ -63,8 +63,8 @@ class PositionMeasure final : public NodePairMeasure {
   bool rate_;
 };
 
-/// The axes are those of the first node at the start, rotated so that the direction is the first axis: the component is
-/// then the first of the vector.
+/// A component of the rotation vector along a direction. The axes are those of the first node at the start, rotated so
+/// that the direction is the first axis, and the component is the first one.
 class RotationMeasure final : public NodePairMeasure {
  public:
   RotationMeasure(std::string name, const NodePair& pair, const Matrix3& A, const Matrix3& B, bool rate)
@@ -183,7 +183,7 @@ std::unique_ptr<Measure> make_angle(const std::string& name, const NodePair& pai
 namespace {
 
 struct AlongAxis {
-  std::string before, after;  ///< parts of the name around the axis
+  std::string before, after;  ///< parts of the name before and after the axis
   NodeQuantity quantity;
 };
 const std::vector<AlongAxis> along_axes = {

@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// a~ b~
+/// Returns a~ b~.
 Matrix3 skew_product(const Vector3& a, const Vector3& b) {
   Matrix3 product = b * a.transpose();
   product.diagonal().array() -= a.dot(b);

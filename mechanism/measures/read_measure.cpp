@@ -34,7 +34,7 @@ std::vector<std::string> words_in(const std::string& text) {
   return words;
 }
 
-/// Returns a formula, or a part of one, with its references. @param value  the place where it stands
+/// Returns a formula, or a part of one, with its references. @param value  the value that contains it
 FormulaText references_in(const std::string& formula, const std::vector<std::string>& variables,
                           const YamlValue& value) {
   std::vector<std::string> plain_names = variables;
@@ -69,7 +69,7 @@ class Lookup {
       event->use();
       return &model_.add_measure(event->make_measure(name, ""), false);
     } catch (const InputError& error) {
-      if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // the error already has a location
+      if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // the error contains its location already
       value_.fail(error.what());
     }
   }
@@ -155,7 +155,7 @@ class Lookup {
       if (has(node_measure_names())) return make_node_measure(name, model_, *index, wanted);
       offer(node_measure_names());
     }
-    // Also measures of a control block: "plant.y1".
+    // Measures of a control block are listed as well: "plant.y1".
     for (const std::string& each : model_.announced_measures())
       if (each.rfind(subject + ".", 0) == 0) available.push_back(each.substr(subject.size() + 1));
     if (available.empty()) {
@@ -273,12 +273,13 @@ std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue&
 /// Returns the measure that a formula names, or one that it defines.
 const Measure& measure_of(const YamlValue& value, const FormulaText& formula, Model& model) {
   static const std::vector<std::string> variables = {"t"};
-  const ReadFormula read = read_formula(value, formula, variables, model);  // makes a single measure known by its name
+  // Creates the measure if the formula is a single name.
+  const ReadFormula read = read_formula(value, formula, variables, model);
   if (const Measure* known = Lookup(value, variables, model).named(formula.written)) return *known;
   return model.add_measure(make_combined(formula.written, read, value, {}), false);
 }
 
-/// In the order of NodeQuantity.
+/// The words of the quantities, in the order of NodeQuantity.
 const std::vector<std::string> quantity_words = {"position",         "velocity", "rotation",
                                                  "angular_velocity", "turn",     "turn_rate"};
 

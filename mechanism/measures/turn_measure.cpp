@@ -15,12 +15,14 @@ namespace bielle::mechanism {
 
 void TurnMeasure::declare_subjects(Declaration& declaration) const {
   declaration.nodes = {pair_.first, pair_.second};
-  // The rate needs no turns.
-  if (!rate_) declaration.memory = {0, 0, std::numeric_limits<double>::quiet_NaN()};  // no step has been accepted yet
+  // The rate does not depend on the number of turns.
+  // NaN: no step has been accepted yet.
+  if (!rate_) declaration.memory = {0, 0, std::numeric_limits<double>::quiet_NaN()};
 }
 
 void TurnMeasure::check_tilt(double sine, double cosine) const {
-  // The sine and the cosine are 2 (q_0^2 + (q . e)^2) long and rounded by 1e-16: below this length nothing is left.
+  // The vector of sine and cosine has the length 2 (q_0^2 + (q . e)^2), and rounding errors of 1e-16. Below this length
+  // the errors dominate.
   if (std::hypot(sine, cosine) > 1e-12) return;
   throw ComputationError(fmt::format(
       "measure '{}': the node is tilted by half a turn, where a turn about the axis is not defined; measure "

@@ -16,7 +16,7 @@ struct StoredValues {
   double value(int k) const { return data[first_time + 1 + 2 * k]; }
   double secant(int k) const { return (value(k + 1) - value(k)) / length(k); }
   double length(int k) const { return time(k + 1) - time(k); }
-  /// Whether values k and k + 1 exist, with a smooth part of the motion between them.
+  /// Returns whether values k and k + 1 exist, with a smooth part of the motion between them.
   bool smooth(int k) const { return k >= 0 && k + 1 < count && length(k) > 0; }
   bool jumps(int k) const { return length(k) == 0 && value(k) != value(k + 1); }
   /// Returns the slope at value k of the parabola through it and its neighbours, or through the nearest three values on
@@ -29,7 +29,7 @@ struct StoredValues {
     const double curvature = (r - s) / (a + b);
     return k < middle ? s - curvature * a : k > middle ? r + curvature * b : s + curvature * a;
   }
-  /// Returns the last value whose time is not after a time that is not before the first.
+  /// Returns the last value whose time is not after `at`, a time that is not before that of the first value.
   int last_until(double at) const {
     int k = 0;
     for (int above = count; above - k > 1;) {
@@ -71,7 +71,7 @@ ValueHistory::Past ValueHistory::before(double now, const Eigen::Ref<const Vecto
     return {of_last * past.value(last) + of_first * past.value(last - 1), weight};
   }
   int k = past.last_until(at);
-  if (past.time(k) == at) {  // the value before a jump
+  if (past.time(k) == at) {  // the value before a jump is used
     while (k > 0 && past.length(k - 1) == 0) --k;
     return {past.value(k), 0};
   }
@@ -91,7 +91,7 @@ bool ValueHistory::store(double now, double value, Eigen::Ref<VectorX> memory) c
   // One value before the delayed time and its neighbour are needed by the interpolation.
   int unused = 0;
   while (unused + 2 < count && past.time(unused + 2) <= now - span_) ++unused;
-  // The next value, and the one after a jump there, need places.
+  // Places are needed for the next value, and for the one after a jump there.
   if (count - unused + 2 > capacity()) return false;
   double* values = memory.data() + first_time;
   if (unused > 0) std::copy(values + 2 * unused, values + 2 * count, values);
@@ -112,7 +112,7 @@ bool ValueHistory::store_after(double time, double value, Eigen::Ref<VectorX> me
   const double change = std::abs(value - past.value(before));
   const bool jumps = change > rounding * std::max(past.largest(), std::abs(value));
   const bool near = before > 0 && time - past.time(before - 1) < span_ / points_;
-  if (!jumps && near && !again) return true;  // a kink among values that are dense anyway
+  if (!jumps && near && !again) return true;  // the values next to the kink are dense already
   if (before + 2 > capacity()) return false;
   double* values = memory.data() + first_time;
   values[2 * before] = values[2 * before + 2] = time;

@@ -67,7 +67,7 @@ Activities::Activities(const Model& model) {
 }
 
 bool are_units_of_forces(const std::string& units) {
-  if (units == "m^3/s") return true;  // flows: a released line of the hydraulics passes none
+  if (units == "m^3/s") return true;  // these are flows: a released line of the hydraulics has none
   static constexpr std::array<std::string_view, 4> symbols = {"N", "W", "J", "Pa"};
   // Units are symbols with exponents between spaces and slashes: "N m", "N/m", "rad/s".
   for (std::size_t begin = 0; begin < units.size();) {

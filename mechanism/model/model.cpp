@@ -87,7 +87,7 @@ void Model::connect() {
     stage.clear();
   }
   for (std::size_t k = 0; k < announced_.size(); ++k) {
-    const std::string name = announced_[k].name;  // creating a measure may announce others
+    const std::string name = announced_[k].name;  // a copy, because creating a measure may announce others
     find_measure(name);
   }
   announced_.clear();
@@ -130,7 +130,7 @@ const Measure* Model::find_measure(const std::string& name) {
   if (announced.under_way)
     throw InputError(fmt::format("the measure '{}' refers to itself, at once or through others", name));
   announced.under_way = true;
-  const std::function<void()> make = announced.make;  // which may announce others
+  const std::function<void()> make = announced.make;  // a copy, because it may announce other measures
   make();
   return measures_.at(name);
 }

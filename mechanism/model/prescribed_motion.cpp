@@ -55,7 +55,7 @@ class PrescribedMotion::Integral {
     Piece piece;
     {
       const std::lock_guard lock(mutex_);
-      while (end_ < t - 1e-9 * (1 + t)) extend();  // a table may end at t, but for rounding
+      while (end_ < t - 1e-9 * (1 + t)) extend();  // a table may end at t, up to rounding
       const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), t,
                                           [](double time, const Piece& each) { return time < each.begin; });
       piece = after == pieces_.begin() ? pieces_.front() : *(after - 1);
@@ -101,7 +101,7 @@ class PrescribedMotion::Integral {
                  second = gained(acceleration_, middle, end);
     const double lowest = std::min(first.lowest, second.lowest), highest = std::max(first.highest, second.highest);
     const double size = std::max(std::abs(lowest), std::abs(highest)) * width;
-    // Times are rounded, and therefore the acceleration at them.
+    // Times are rounded, and accelerations at these times have corresponding errors.
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * end * (highest - lowest);
     return std::abs(first.velocity + second.velocity - whole.velocity) <= 1e-13 * size + rounding;
   }

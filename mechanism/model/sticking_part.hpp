@@ -1,5 +1,5 @@
-// Interface of components whose friction holds in a static analysis only up to a limit that is no force of its own: if
-// there is no equilibrium, the analysis makes them stick and describes the load on them.
+// Interface of components whose friction holds in a static analysis only up to a limit, which depends on other forces.
+// If there is no equilibrium, the analysis makes them stick and describes the load on them.
 #pragma once
 
 #include <string>

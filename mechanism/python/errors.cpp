@@ -25,7 +25,8 @@ void translate(std::exception_ptr thrown) {
   } catch (const ComputationError& failed) {
     set(computation_error, failed);
   } catch (const std::logic_error& refused) {
-    if (typeid(refused) != typeid(std::logic_error)) throw;  // out_of_range and similar have exceptions of Python
+    // std::out_of_range and similar ones become exceptions of Python.
+    if (typeid(refused) != typeid(std::logic_error)) throw;
     set(any_error, refused);
   }
 }

@@ -1,4 +1,4 @@
-// Models: they are read and described, never changed.
+// Models are read and described here, but never changed.
 #include <algorithm>
 
 #include <pybind11/stl.h>

@@ -34,7 +34,7 @@ using ByRows = Eigen::Matrix<double, M::RowsAtCompileTime, M::ColsAtCompileTime,
 template <class M>
 constexpr std::size_t size_of = static_cast<std::size_t>(M::SizeAtCompileTime);
 
-/// Dimensions of one item.
+/// Returns the dimensions of one item.
 template <class M>
 Shape item_shape() {
   if (M::ColsAtCompileTime == 1) return {M::RowsAtCompileTime};
@@ -98,7 +98,7 @@ OnArrays on_arrays(Out (*function)(const In&...)) {
   };
 }
 
-/// Parameters of a rotation matrix, whose rounding is corrected as that of matrices in model files.
+/// Returns the parameters of a rotation matrix, whose rounding is corrected as that of matrices in model files.
 template <class P>
 typename P::Parameters parameters_of(const Matrix3& R) {
   if (const auto fault = mechanism::rotation_fault(R))

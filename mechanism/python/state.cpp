@@ -14,7 +14,7 @@ using mechanism::State;
 constexpr std::size_t node_stride = sizeof(NodeState) / sizeof(double);
 static_assert(sizeof(NodeState) == 24 * sizeof(double), "a node is nothing but its numbers");
 
-/// Returns (nodes, 3) of the vectors that each node has at an offset.
+/// Returns a vector of each node as an array (nodes, 3).
 template <class Member>
 auto vectors_of_nodes(Member member) {
   return [member](const py::object& self) {

@@ -16,7 +16,7 @@ std::atomic<bool> ending = false, abandoned = false;
   throw pybind11::error_already_set();
 }
 
-/// Stops this thread for good if the program has ended without it: the lock cannot be taken any more.
+/// Stops this thread for good if the program has ended without waiting for it: the lock cannot be taken any more.
 void stay_away_if_abandoned() {
   while (abandoned) std::this_thread::sleep_for(std::chrono::hours(1));
 }

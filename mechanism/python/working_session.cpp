@@ -26,7 +26,7 @@ WorkingSession::WorkingSession(HeldModel model, int threads) : model_(std::move(
   });
 }
 
-/// Files compute the results of components in their own thread: they must end before the session does.
+/// The files compute results of components in their own threads, which must end before the session does.
 WorkingSession::~WorkingSession() {
   for (const auto& [recorder, before] : recorders_) recorder->file.reset();
 }
@@ -36,7 +36,7 @@ WorkingSession::Listening::Listening(WorkingSession& of, const Callbacks& callba
   session.listener_ = &interruptible;
 }
 
-/// Keeps a message once: a motion with thousands of starts gives the same ones repeatedly.
+/// Keeps each message once, because a motion with thousands of starts would repeat it.
 void WorkingSession::KeptNotes::note(const std::string& sentence) {
   std::string shown = without_unseen_lines(sentence);
   if (std::find(sentences.begin(), sentences.end(), shown) == sentences.end()) sentences.push_back(std::move(shown));

@@ -21,11 +21,12 @@ constexpr std::array<std::string_view, 8> releasable_lines = {"orifice",        
                                                               "counterbalance", "flow_valve", "valve", "servo_valve"};
 
 bool is_releasable_line(const Component& component) {
-  if (dynamic_cast<const Activity*>(&component)) return true;  // belongs to any entry
+  if (dynamic_cast<const Activity*>(&component)) return true;  // an activity may belong to any entry
   return std::find(releasable_lines.begin(), releasable_lines.end(), component.type()) != releasable_lines.end();
 }
 
-/// Checks that an entry joins or pushes, when everything has been read. @throws InputError
+/// Checks that an entry can be released, when everything has been read: it has no inertia, and no sought effort.
+/// @throws InputError
 void check_releasable(const YamlValue& value, const Entry& entry, const Model& model) {
   for (const Component* component : model.components_of(entry)) {
     if (entry.section == Section::hydraulics && !is_releasable_line(*component))
@@ -68,7 +69,7 @@ const Activity& activity_named_by(const YamlValue& value, Model& model) {
     names.insert(names.end(), all.begin(), all.end());
     const std::vector<Component*> components = model.components_of({section, name});
     if (components.empty()) continue;
-    // A place of the hydraulics may have the name of what is meant.
+    // A place of the hydraulics may have the same name as the entry that is meant.
     if (section == Section::hydraulics && !found.empty() && !is_releasable_line(*components.front())) continue;
     found.push_back({section, name});
     sections.emplace_back(section_name(section));

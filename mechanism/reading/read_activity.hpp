@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-/// Returns the key `active` of entries that join or push.
+/// Returns the key `active` of entries that add forces or constraints without having inertia.
 Key activity_key();
 /// Reads this key of an entry, after its other keys. @throws InputError for an entry with inertia
 void read_activity(const YamlValue& entry, const Entry& own, Model& model);

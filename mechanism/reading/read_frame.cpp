@@ -47,8 +47,8 @@ Matrix3 read_axes(const YamlValue& value) {
   return R;
 }
 
-/// Numbers in files have a few digits: the rotation nearest to the matrix is used, unless the difference exceeds
-/// rounding.
+/// Reads a rotation matrix. Numbers in files have a few digits, so that the rotation nearest to the matrix is used,
+/// unless the difference exceeds rounding.
 Matrix3 read_matrix(const YamlValue& value) {
   const Matrix3 given = value.matrix(3, 3);
   if (const auto fault = rotation_fault(given))
@@ -105,7 +105,7 @@ Matrix3 read_orientation(const YamlValue& entry) {
   if (given == "matrix") return read_matrix(value);
   const Vector3 p = value.vector3();
   const bool angles = given != "rodrigues" && given != "conformal";
-  constexpr double largest = 1e6;  // with more turns, fewer than ten digits of the last one are left
+  constexpr double largest = 1e6;  // beyond this, fewer than ten digits of the last turn are left
   if (angles && p.cwiseAbs().maxCoeff() > largest)
     value.fail(fmt::format("angles of more than {:.0e} rad do not tell an orientation any more", largest));
   if (angles && p.cwiseAbs().maxCoeff() > 2 * M_PI)

@@ -82,7 +82,7 @@ void check_same_model(const std::string& file, const std::string& found, const s
       fmt::format("{}: {}: the checkpoints are damaged, and no run can go on from them", file.path(), what));
 }
 
-/// Returns how many rows of its analysis a checkpoint counts.
+/// Returns the number of rows of its analysis that belong to a checkpoint.
 std::size_t recorded_rows(const Hdf5File& file, int analysis, double last) {
   const std::string time = analysis_name(analysis) + "/time";
   const Shape shape = file.has(time) ? file.shape(time) : Shape{0};
@@ -118,8 +118,8 @@ void check_sum(const Hdf5File& file, const std::string& group, std::size_t count
     fail_damaged(file, group + "/state does not hold the numbers that were written");
 }
 
-/// Appends the anchor of an interrupted run: a checkpoint of an interruption has an anchor, the checkpoint at which the
-/// run rebuilt its tangents (Motion::save_where_interrupted).
+/// Appends the anchor of an interrupted run, which is the checkpoint at which the run rebuilt its tangents
+/// (Motion::save_where_interrupted).
 void append_anchor(const Hdf5File& file, const std::string& group, const std::vector<double>& rows,
                    Checkpoint& checkpoint) {
   const std::vector<double>& values = checkpoint.values;
@@ -198,7 +198,7 @@ void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& che
 void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   for (int k = checkpoint.analysis + 1; file.has(analysis_name(k)); ++k) file.remove(analysis_name(k));
   const std::string group = analysis_name(checkpoint.analysis);
-  // The times are truncated first: rows beyond them do not count.
+  // The times are truncated first, because rows beyond them do not count.
   file.truncate_rows(group + "/time", checkpoint.rows);
   file.flush();
   // Events are not rows over time; their number is stored in the checkpoint (ResultsFile::exchange).
@@ -207,7 +207,7 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   for_each_dataset(file, group, [&](const std::string& dataset) {
     if (file.grows(dataset)) {
       if (dataset.rfind(group + "/events/", 0) != 0) file.truncate_rows(dataset, checkpoint.rows);
-    } else if (!file.is_text(dataset)) {  // texts are names and attributes of recorded entries
+    } else if (!file.is_text(dataset)) {  // texts stay: they are names and attributes of recorded entries
       of_the_end.push_back(dataset);
     }
   });

@@ -16,7 +16,7 @@ namespace {
 /// change.
 constexpr int format = 9;
 
-/// The test state is near the start and has velocities, so that it shows the dependence of forces on them.
+/// Returns the test state. It is near the start and has velocities, so that it shows the dependence of forces on them.
 State displaced(const System& system, const State& start) {
   const double length = model_length(start);
   State state = start;
@@ -47,7 +47,7 @@ std::string forces(const Component& component, const LocalState& state) {
     return "refuses";
   }
   std::string text = fmt::format("{:.10g}", r.norm());
-  // Forces do not show future events and break points.
+  // The events and break points are added, because the forces do not show them.
   Declaration declaration;
   component.declare(declaration);
   if (!declaration.event_functions.empty()) {

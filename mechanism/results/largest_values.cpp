@@ -92,7 +92,7 @@ void LargestValues::add(double time, const double* values) {
 
 std::string LargestValues::summary() const {
   const auto of = [&](Quantity quantity) { return largest_[static_cast<std::size_t>(quantity)].value; };
-  // Moments that are rounding next to the forces, at an arm of 1 m, and the reverse.
+  // Moments below this fraction of the forces (at an arm of 1 m) are rounding errors, and the reverse.
   constexpr double rounding = 1e-13;
   const double least = rounding * std::max(of(Quantity::joint_force), of(Quantity::joint_moment));
   std::string text;

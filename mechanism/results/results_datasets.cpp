@@ -19,7 +19,7 @@ constexpr std::size_t most_named_datasets = 4000;
 
 std::string units_or_number(const std::string& units) { return units.empty() ? "-" : units; }
 
-/// Path of a kind in the stacked layout: "joints/hinge".
+/// Returns the path of a kind in the stacked layout: "joints/hinge".
 std::string place_of(const ResultsKind& kind) { return results_path({kind.section, kind.name}); }
 
 std::vector<std::string> names_of(const ResultsKind& kind, const ResultsKinds& kinds) {

@@ -16,7 +16,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// The version depends on the layout: old readers of names only support the first.
+/// The version depends on the layout, because old readers of names only support the first one.
 std::int64_t version_of(ResultsLayout layout) { return layout == ResultsLayout::named ? 1 : 2; }
 
 /// Returns the layout of a file that is continued.

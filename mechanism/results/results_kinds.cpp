@@ -229,7 +229,7 @@ std::vector<std::pair<std::string, std::string>> ResultsKinds::attributes(const 
   bool stacked = false;
   for (std::size_t k = 0; k < entry.members.size(); ++k) {
     const Component& component = *model_.members()[entry.members[k]].component;
-    // All stacked members have the attributes of the first.
+    // The attributes of stacked members are those of the first one.
     if (model_.members()[entry.members[k]].recorded == Recorded::stacked && std::exchange(stacked, true)) continue;
     for (const auto& [name, value] : component.attributes()) add(name, value);
   }

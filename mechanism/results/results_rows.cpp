@@ -237,7 +237,7 @@ std::vector<double> ResultsRows::read_entry(const ResultsEntry& entry, std::size
 }
 
 /// Writes the outputs of a released member: positions and rates as if it acted, forces zero. A member that cannot be
-/// evaluated where it is now (a contact whose bodies have passed through each other) has no positions: nan.
+/// evaluated where it is now (a contact whose bodies have passed through each other) has no positions; NaN is written.
 void ResultsRows::write_released(std::size_t member, const LocalState& local, double* output) const {
   const Component& component = *model_.members()[member].component;
   const std::vector<OutputField> fields = component.output_fields();

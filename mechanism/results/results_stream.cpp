@@ -32,7 +32,7 @@ constexpr std::size_t large_column = 8192;
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
 
-/// Number of pieces of `piece` bytes that fit, at least one.
+/// Returns the number of pieces of `piece` bytes that fit, at least one.
 std::size_t pieces_in(std::size_t bytes, std::size_t piece, std::size_t most) {
   return std::clamp<std::size_t>(bytes / piece, 1, most);
 }
@@ -155,7 +155,7 @@ void ResultsStream::write_until_told_to_stop() {
     changed_.wait_until(lock, written + wait, wanted);
     if (failure_) {
       if (stopping_) return;
-      written = Clock::now();  // no more rows will be written
+      written = Clock::now();  // after a failure no more rows are written
       continue;
     }
     const bool at_once = stopping_ || wanted_now_;
@@ -226,9 +226,9 @@ void ResultsStream::add_to_sums() {
   sums_.back().add({block_.times.data(), block_.rows});
 }
 
-/// The file never counts an incomplete row: the data are written before the times. With the first rows the datasets are
-/// created, all changes of which reach the file together, with the flush. With the last expected rows they are closed:
-/// an open dataset holds some 20 kB.
+/// The file never counts an incomplete row, because the data are written before the times. The datasets are created
+/// with the first rows, and the flush brings all these changes to the file together. They are closed with the last
+/// expected rows, because an open dataset holds some 20 kB.
 void ResultsStream::write_block() {
   add_to_sums();
   written_ += block_.rows;

@@ -14,12 +14,12 @@ std::string quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += c;
-    quoted += c == '\n' || c == '\r' ? ' ' : c;  // one line for each step
+    quoted += c == '\n' || c == '\r' ? ' ' : c;  // a step has only one line
   }
   return quoted + '"';
 }
 
-/// Path of the table, next to the results.
+/// Returns the path of the table, next to the results.
 std::string table_of(const std::string& results_path) {
   return std::filesystem::path(results_path).replace_extension(".steps.csv").string();
 }

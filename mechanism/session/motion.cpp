@@ -55,7 +55,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(sess
   session_.recorder().record(this->state(), environment, row);
   session.gather(this->state(), environment);
   computation_->set_report(row);
-  show();  // shown last: if the constructor throws, the session shows no motion
+  show();  // called last, so that the session shows no motion if the constructor throws
   if (session.recording().checkpoint > 0) save_for_sinks();
 }
 
@@ -183,7 +183,7 @@ void Motion::take_step(bool seen) {
   computation_->set_report(row(step, parts_.energy_balance));
   record_step(step, before, balance_before);
   session_.gather(state(), session_.environment());
-  parts_.march->settle(step);  // the last row is recorded before, as all rows at jumps are
+  parts_.march->settle(step);  // called after the last row, because rows at jumps are recorded before the jumps
   const auto& functions = session_.system().event_functions();
   for (const Passed& passed : step.passed) {
     last_event_ = functions[static_cast<std::size_t>(passed.event_function)].name;

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Tells of states whose instants decide the number of steps.
+/// Warns if the instants of a state decide the number of steps.
 void note_many_instants(const Model& model, double duration, Notes& notes) {
   constexpr double many = 1e6;
   for (const Member& member : model.members())

@@ -37,8 +37,8 @@ std::vector<std::string> with_kink_at(const System& system, double time) {
 
 void PrescribedJumps::add(const System& system, const Jump& jump) {
   if (!jump.prescribed) return;
-  // A rate that jumps to zero does no work. The velocities of the scheme have a relative error of (omega h)^2/12, which
-  // a restart removes.
+  // The kinetic energy is compared as well, because a rate that jumps to zero does no work. Its limit is larger,
+  // because the velocities of the scheme have a relative error of (omega h)^2/12, which a restart removes.
   constexpr double little = 1e-6, offset = 0.01;
   const double before = jump.before.kinetic, after = jump.after.kinetic;
   if (!(std::abs(jump.work) > little * (before + after)) && !(std::abs(after - before) > offset * (before + after)))

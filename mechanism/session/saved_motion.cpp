@@ -33,7 +33,7 @@ void Motion::exchange_energy_balance(Archive& archive, Parts& parts) {
   archive.of_any_length(parts.gathered);
 }
 
-/// Writes the motion, the numbers of the sink last.
+/// Writes the motion, and the numbers of the sink at the end.
 void Motion::write(Archive& archive, ResultSink* sink) {
   Recorder& recorder = session_.recorder();
   parts_.gathered = recorder.step_recorders().numbers();
@@ -58,8 +58,8 @@ Motion::Parts Motion::read(Archive& archive, Notes* notes) {
   return parts;
 }
 
-/// Continues from a checkpoint at which tangents were rebuilt, or from one of an interruption, which is stored together
-/// with the former.
+/// Continues from a checkpoint at which tangents were rebuilt, or from a checkpoint of an interruption; the latter is
+/// stored together with the former.
 /// @throws std::out_of_range, InputError
 void Motion::go_on(Archive& archive, ResultSink* sink) {
   Parts now = read(archive, session_.notes());
@@ -105,8 +105,7 @@ bool Motion::arrives(Parts anchor) {
   return true;
 }
 
-/// Saves the motion for all sinks. It is called without sinks as well: the motion must not depend on whether there are
-/// any.
+/// Saves the motion for all sinks. It is called even if there are none, because the motion must not depend on this.
 void Motion::save_for_sinks() {
   if (saved_) return;
   parts_.steps = parts_.saves = 0;

@@ -30,7 +30,7 @@ void exchange_report(Archive& archive, std::optional<StepRecord>& report, int eq
   if (timed) archive(report->time ? *report->time : report->time.emplace());
 }
 
-/// Restores data from numbers that may not be as expected.
+/// Restores data from numbers, and reports numbers that are not as expected.
 template <class Read>
 auto restored(Archive& archive, Read&& read) {
   std::string why = "there are more numbers than are needed";
@@ -50,7 +50,7 @@ struct Session::Saved {
   Environment acting;
   std::optional<StepRecord> report;
   bool moving = false, started = false;
-  State state;  ///< state without a motion
+  State state;  ///< the state, if there is no motion
 };
 
 void Session::exchange(Archive& archive, Saved& saved) const {

@@ -106,7 +106,7 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
     try {
       model_.members()[m].component->begin_branch(local(state, m, environment), own, own_memory);
     } catch (const ComputationError&) {
-      if (unknowns_.is_active(state, m)) throw;  // see accept
+      if (unknowns_.is_active(state, m)) throw;  // a released part may be anywhere, see accept
       own_memory = local(state, m, environment).memory();
     }
   }
@@ -126,7 +126,7 @@ void Branches::begin_motion(State& state, const Environment& environment, bool k
 bool Branches::accept(State& state, const Environment& environment) const {
   thread_local VectorX accepted;
   accepted = state.memory;
-  VectorX& memory = accepted;  // the calling thread's buffer, in all threads
+  VectorX& memory = accepted;  // all threads use the buffer of the calling thread
   std::atomic<bool> left = false;
   const auto accept_one = [&](std::size_t m) {
     const Component& component = *model_.members()[m].component;
@@ -136,7 +136,7 @@ bool Branches::accept(State& state, const Environment& environment) const {
     try {
       component.accept(view, memory.segment(slots.memory_begin, slots.memories));
     } catch (const ComputationError&) {
-      // A released part may be anywhere, also where it cannot be evaluated: it keeps its memory there.
+      // A released part may be anywhere, also where it cannot be evaluated. It then keeps its memory.
       if (unknowns_.is_active(state, m)) throw;
       memory.segment(slots.memory_begin, slots.memories) = view.memory();
     }

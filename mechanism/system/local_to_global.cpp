@@ -105,7 +105,8 @@ const ScalarPart* LocalToGlobal::own_amplitudes() const {
   return nullptr;
 }
 
-/// Nodes that are held in some directions or carried by others mix the directions of forces: all entries are then kept.
+/// Returns the pattern of a component. Nodes that are held in some directions or carried by others mix the directions
+/// of forces, so that all entries are then kept.
 LocalPattern LocalToGlobal::pattern(const Component& component, const Slots& slots) const {
   LocalPattern pattern(reduced_size());
   if (!plain) {

@@ -100,7 +100,8 @@ class PairTangents::Sum final : public PairDerivatives {
     }
   }
 
-  /// Columns of rotations of K are multiplied by the T of their node.
+  /// Adds a pair whose nodes are free or held in all directions. Columns of rotations of K are multiplied by the T of
+  /// their node.
   void add_plain(const std::array<Side, 2>& sides, const Matrix12& K, const Matrix12& C) {
     const TangentWeights& weights = request_.weights;
     for (int i = 0; i < 4; ++i)

@@ -119,7 +119,7 @@ void ResidualAssembly::node_forces(const State& state, const Environment& enviro
   } else {
     thread_local VectorX costly_parts;
     costly_parts.setZero(work_.row_begin(costly_.size()));
-    VectorX& parts = costly_parts;  // the calling thread's buffer, in all threads
+    VectorX& parts = costly_parts;  // all threads use the buffer of the calling thread
     const auto evaluate_costly = [&](std::size_t k) {
       evaluate(costly_[k].member, state, environment,
                parts.segment(work_.row_begin(k), work_.row_begin(k + 1) - work_.row_begin(k)));

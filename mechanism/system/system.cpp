@@ -123,7 +123,8 @@ bool is_finite(const Energy& e) {
   return std::isfinite(e.kinetic + e.elastic + e.gravity) && std::isfinite(e.dissipation) && std::isfinite(e.input);
 }
 
-/// Throws for the first component with an energy that is not finite: an energy balance with it would be meaningless.
+/// Throws for the first component with an energy that is not finite, because an energy balance with it would be
+/// meaningless.
 [[noreturn]] void throw_without_energy(const System& system, const State& state, const Environment& environment) {
   const auto& members = system.model().members();
   for (std::size_t m = 0; m < members.size(); ++m) {
@@ -152,7 +153,7 @@ bool is_finite(const Energy& e) {
 Energy System::energy(const State& state, const Environment& environment) const {
   thread_local std::vector<Energy> costly;
   costly.assign(work_.costly().size(), {});
-  std::vector<Energy>& parts = costly;  // the calling thread's buffer, in all threads
+  std::vector<Energy>& parts = costly;  // all threads use the buffer of the calling thread
   Energy energy;
   const auto add_one = [&](std::size_t m, Energy& sum) {
     if (!is_active(state, m)) return;

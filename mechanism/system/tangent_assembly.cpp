@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-/// For each member, which reduced entries belong to the pattern, one bit each.
+/// One bit for each reduced entry of each member, which is set if the entry belongs to the pattern.
 class TangentAssembly::KeptEntries {
  public:
   KeptEntries(const TangentAssembly& assembly) : placements_(assembly.placements_) {
@@ -38,8 +38,8 @@ class TangentAssembly::KeptEntries {
   }
 
  private:
-  /// A constraint does not depend on multipliers: that block is not in the pattern, except the diagonal entries of
-  /// constraints that may be out of the equations. No component adds to the constraints of others.
+  /// Adds a member's entries. A constraint does not depend on multipliers: that block is not in the pattern, except the
+  /// diagonal entries of constraints that may be out of the equations. No component adds to the constraints of others.
   void add(std::size_t member, const LocalPattern& pattern) {
     const LocalToGlobal& placement = placements_[member];
     const int n = placement.reduced_size();
@@ -131,7 +131,7 @@ void TangentAssembly::build_pattern() {
     for (std::size_t m = 0; m < placements_.size(); ++m)
       kept.for_each(m, [&](int, int row, int column) { act(row, column); });
     for (const PairTangents& each : pairs_) each.for_each_entry([&](int row, int column, bool) { act(row, column); });
-    for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to the diagonal
+    for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add values to the diagonal
     for (const int i : held_when_released_) act(i, i);
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
       if (may_be_idle_[static_cast<std::size_t>(k)]) act(row, row);
@@ -255,7 +255,7 @@ bool TangentAssembly::set_values_of_members(const State& state, const Environmen
   return true;
 }
 
-/// @returns false if a pair acts that has no entries
+/// @returns false if a pair acts whose entries are not in the pattern
 bool TangentAssembly::add_values(const State& state, const Environment& environment, const TangentWeights& weights,
                                  const VectorX* dq, std::vector<double>& values) const {
   thread_local std::vector<Matrix3> step_tangent;
@@ -268,7 +268,7 @@ bool TangentAssembly::add_values(const State& state, const Environment& environm
   }
   const TangentRequest request{kinematics_, weights, dq, dq ? step_tangent.data() : nullptr};
   waiting_entries.assign(waiting_.back(), 0.0);
-  std::vector<double>& waiting = waiting_entries;  // the calling thread's buffer, in all threads
+  std::vector<double>& waiting = waiting_entries;  // all threads use the buffer of the calling thread
   const auto evaluate_costly = [&](std::size_t k) {
     const std::size_t m = work_.costly()[k];
     if (!unknowns_.is_active(state, m)) return;
@@ -288,7 +288,8 @@ bool TangentAssembly::add_values(const State& state, const Environment& environm
   return complete;
 }
 
-/// Adds the entries of all members that are not costly. @returns false if a pair acts that has no entries
+/// Adds the entries of all members that are not costly. @returns false if a pair acts whose entries are not in the
+/// pattern
 bool TangentAssembly::add_small(const State& state, const Environment& environment, const TangentRequest& request,
                                 std::vector<double>& values) const {
   TangentWorkspace& work = workspace(largest_local_);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-/// Units of a scalar's equation if its component declares none.
+/// Returns the units of a scalar's equation if its component declares none.
 std::string usual_equation_units(Kind kind, const Declaration::Scalar& scalar) {
   if (kind == Kind::amplitude) return scalar.units == "m" ? "N" : scalar.units == "rad" ? "N m" : "N/sqrt(kg)";
   if (kind == Kind::first_order) return scalar.algebraic ? scalar.units : scalar.units + "/s";

@@ -89,7 +89,7 @@ RecoveryExtent read_extent(const YamlValue& value) {
   return word == "none" ? RecoveryExtent::none : word == "surface" ? RecoveryExtent::surface : RecoveryExtent::all;
 }
 
-/// Explains a key of the recovery that users look for in vain.
+/// Refuses the key `strain` of `recovery`, which users expect, and explains how strain is obtained.
 void refuse_strain(const YamlValue& file) {
   const auto recovery = file.find("recovery");
   if (!recovery || !recovery->is_map()) return;

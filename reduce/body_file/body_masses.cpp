@@ -10,7 +10,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Inertia about the centre of the mass, in the axes of the body.
+/// Reads the inertia about the centre of the mass, in the axes of the body.
 Eigen::Matrix3d read_inertia(const YamlValue& mass) {
   const auto axes = mass.find("axes");
   const auto inertia = mass.find("inertia");

@@ -29,7 +29,7 @@ void read_solids(const YamlValue& root, MeshRequest& request) {
   }
 }
 
-/// A surface that has the name of its user.
+/// A surface that is named after the interface, load or other request that uses it.
 struct NamedSurface {
   std::string name, group;
   const char* kind;  ///< "an interface"
@@ -102,7 +102,7 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
 
 void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshRequest& request) {
   const std::vector<NamedSurface> surfaces = named_surfaces(options);
-  std::map<std::string, std::string> name_of;  // group -> name for its size
+  std::map<std::string, std::string> name_of;  // group -> name under which a size was given for it
   std::map<std::string, GroupSize> resolved;
   for (const auto& [name, size] : request.sizes) {
     const NamedSurface* found = nullptr;

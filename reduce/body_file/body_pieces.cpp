@@ -79,7 +79,7 @@ void add_plane(const YamlValue& value, const Eigen::Vector3d& point, const Eigen
   cuts.push_back(plane);
 }
 
-/// `{axis: x, at: 0.2}`, or at several places: planes normal to an axis of the body.
+/// Adds planes normal to an axis of the body, at one place or several: `{axis: x, at: 0.2}`.
 void add_planes_along_axis(const YamlValue& value, std::vector<CutPlane>& cuts) {
   const std::string axis = value.at("axis").word();
   const Eigen::Vector3d normal = Eigen::Vector3d::Unit(std::find(axes.begin(), axes.end(), axis) - axes.begin());

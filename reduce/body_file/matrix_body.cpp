@@ -40,7 +40,7 @@ ForeignMatrices read_files(const YamlValue& value) {
   return files;
 }
 
-/// Names of rows: a list for all of them, or a map to the numbers of some.
+/// Reads the names of rows: a list for all of them, or a map to the numbers of some.
 QuantityRows read_rows(const YamlValue& value) {
   QuantityRows rows;
   rows.subject = value.path();

@@ -14,7 +14,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Optimal string alignment (restricted Damerau-Levenshtein) distance.
+/// Returns the optimal string alignment (restricted Damerau-Levenshtein) distance.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), current(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;

@@ -19,7 +19,7 @@ namespace {
 /// A pasted text counts as a message if it has this share of the message's words.
 constexpr double likely = 0.75;
 
-/// The text with one blank in place of blanks and line breaks, none at its ends.
+/// Returns the text with one blank in place of blanks and line breaks, none at its ends.
 std::string single_blanks(const std::string& text) {
   std::istringstream stream(text);
   std::string joined;
@@ -38,7 +38,7 @@ std::vector<std::string> fixed_texts(const std::string& message) {
   return texts;
 }
 
-/// Number of letters of a message that a text contains in order; 0 if one of its fixed texts is missing.
+/// Returns the number of letters of a message that a text contains in order; 0 if one of its fixed texts is missing.
 std::size_t matched_letters(const std::string& message, const std::string& text) {
   std::size_t place = 0, letters = 0;
   for (const std::string& fixed : fixed_texts(message)) {
@@ -65,7 +65,7 @@ std::set<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// Share of the words of a message that are in `given`.
+/// Returns the share of the words of a message that are in `given`.
 double likeness(const std::string& message, const std::set<std::string>& given) {
   const std::set<std::string> words = words_of(message);
   const auto found = std::count_if(words.begin(), words.end(), [&](const auto& word) { return given.contains(word); });

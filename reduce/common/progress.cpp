@@ -21,7 +21,7 @@ constexpr int bar_width = 24;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// It never throws: the work must go on even if its progress cannot be shown.
+/// Prints a text. It never throws, because the work must go on even if its progress cannot be shown.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 std::string duration(double seconds) {

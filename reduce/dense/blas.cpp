@@ -16,7 +16,7 @@ namespace bielle {
 
 namespace {
 
-/// Width of the vector instructions of a family of OpenBLAS kernels [bits]; 0 if unknown.
+/// Returns the width of the vector instructions of a family of OpenBLAS kernels [bits]; 0 if unknown.
 int kernel_width(const std::string& core) {
   const auto is_one_of = [&](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), core) != names.end();
@@ -34,7 +34,7 @@ int kernel_width(const std::string& core) {
   return 0;
 }
 
-/// Width of the vector instructions of this processor [bits]; 0 if unknown.
+/// Returns the width of the vector instructions of this processor [bits]; 0 if unknown.
 int processor_width() {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {

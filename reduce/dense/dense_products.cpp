@@ -14,7 +14,7 @@ constexpr Eigen::Index few = 500;
 int integer(Eigen::Index k) { return static_cast<int>(k); }
 int stride(const ConstMatrixRef& A) { return std::max(1, integer(A.outerStride())); }
 
-/// C += scale A B, or A^T B
+/// Computes C += scale A B, or C += scale A^T B.
 void add_by_blas(MatrixRef C, CBLAS_TRANSPOSE order, const ConstMatrixRef& A, const ConstMatrixRef& B, double scale) {
   if (B.cols() == 1)
     cblas_dgemv(CblasColMajor, order, integer(A.rows()), integer(A.cols()), scale, A.data(), stride(A), B.data(), 1, 1,

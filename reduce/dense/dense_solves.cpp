@@ -7,7 +7,7 @@ namespace bielle {
 
 namespace {
 
-/// x <- (L U)^-1 x
+/// Computes x <- (L U)^-1 x.
 void solve_triangles(const Eigen::MatrixXd& LU, MatrixRef x) {
   if (x.cols() == 1) {
     auto vector = x.col(0);

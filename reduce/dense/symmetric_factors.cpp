@@ -37,7 +37,7 @@ std::optional<Eigen::Index> factorise_definite(Eigen::MatrixXd& A) {
   dpotrf_("L", &n, A.data(), &stride, &info);
   if (info > 0) return info - 1;
   for (Eigen::Index k = 0; k < n; ++k)
-    if (!std::isfinite(A(k, k))) return k;  // OpenBLAS takes pivots that are no numbers for good ones
+    if (!std::isfinite(A(k, k))) return k;  // OpenBLAS accepts pivots that are not numbers
   return {};
 }
 

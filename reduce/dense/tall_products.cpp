@@ -12,7 +12,7 @@ namespace bielle {
 
 namespace {
 
-constexpr Eigen::Index fewest_rows = 2000;  // fewer are not worth a thread
+constexpr Eigen::Index fewest_rows = 2000;  // with fewer rows, a further thread is not worth its cost
 
 int sensible_threads(Eigen::Index rows, int threads) {
   return static_cast<int>(std::clamp<Eigen::Index>(rows / fewest_rows, 1, std::max(1, threads)));

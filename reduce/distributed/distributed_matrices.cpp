@@ -37,7 +37,7 @@ void send_packed(Channel& channel, Share& share) {
   channel.send_text(packing.bytes());
 }
 
-/// Rows of some columns of a field that belong to the given points, `per_point` for each.
+/// Returns the rows of some columns of a field that belong to the given points, `per_point` for each.
 RowMatrix rows_of(const std::vector<int>& points, Eigen::Index per_point, const RowMatrix& u, Eigen::Index first,
                   Eigen::Index width) {
   RowMatrix rows(per_point * static_cast<Eigen::Index>(points.size()), width);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double share_of_first = 1.0 / 3;
 
-/// Total share of the parts from `first` to `first + count - 1`, where a full part has the share 1.
+/// Returns the total share of the parts from `first` to `first + count - 1`, where a full part has the share 1.
 double weight(int first, int count) { return first == 0 ? count - 1 + share_of_first : count; }
 
 void divide(const Eigen::Matrix3Xd& centroids, std::span<int> cells, int first_part, int parts,

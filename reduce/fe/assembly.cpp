@@ -39,8 +39,8 @@ class InvertedCells {
   std::atomic<int> lowest_{-1};
 };
 
-/// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its neighbours with higher
-/// numbers.
+/// Returns the pattern of K: columns of node b hold the rest of its own block, then the blocks of its neighbours with
+/// higher numbers.
 SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
   SymmetricMatrix k;
   k.size = 3 * graph.size();
@@ -90,7 +90,8 @@ Eigen::Matrix<double, 3 * N, 3 * N> condensed_stiffness(const CellPoints<N>& x,
   return modes.condensed();
 }
 
-/// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
+/// Adds the cells' stiffness, which is computed by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b
+/// in the order of the mesh.
 template <int N>
 void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
   const CellRules<N> rules(stiffness_degrees<N>(block.solid.integration));

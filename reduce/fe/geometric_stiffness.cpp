@@ -22,7 +22,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// all fields for node a and its j-th neighbour from itself on.
 struct FieldMatrices {
   Index fields;
-  std::vector<std::int64_t> first{0};  ///< and one more
+  std::vector<std::int64_t> first{0};  ///< first column of each node, and the end
   std::vector<std::int64_t> own;       ///< place of node a among its own neighbours
   std::unique_ptr<double[]> values;    ///< (fields, pairs)
 
@@ -49,8 +49,8 @@ Quadrature five_points() {
   return rule;
 }
 
-/// Factors of the stress components xx yy zz yz xz xy of one field in g_ab: products of gradients, and sums of two
-/// products for the shear components. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is
+/// Sets the factors of the stress components xx yy zz yz xz xy of one field in g_ab: products of gradients, and sums of
+/// two products for the shear components. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is
 /// halved.
 template <int N>
 void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& products) {
@@ -68,7 +68,7 @@ void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& produ
   }
 }
 
-/// Number of a pair of nodes of a cell, in the order of `set_products`.
+/// Returns the number of a pair of nodes of a cell, in the order of `set_products`.
 constexpr int pair_number(int a, int b, int nodes) {
   return a <= b ? a * nodes - a * (a - 1) / 2 + b - a : pair_number(b, a, nodes);
 }
@@ -116,8 +116,8 @@ void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix&
   }
 }
 
-/// The numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours); the block of a itself is
-/// complete.
+/// Gathers the numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours); the block of a
+/// itself is complete.
 void gather(const NodeGraph& graph, const FieldMatrices& g, int a, double* row) {
   for (std::int64_t place = graph.starts[a]; place < graph.starts[a + 1]; ++place, row += g.fields) {
     const int b = graph.neighbours[place];
@@ -140,7 +140,7 @@ class ReducedSum {
         made_(at_a_time * width_ * fields_),
         sum_(MatrixXd::Zero(n_, n_ * fields_)) {}
 
-  static constexpr Index at_a_time = 32;  // nodes: what they make stays in the cache
+  static constexpr Index at_a_time = 32;  // number of nodes whose products stay in the cache
 
   void add_nodes(Index begin, Index end) {
     for (Index a = begin; a < end; ++a) make(static_cast<int>(a), made_.data() + (a - begin) * width_ * fields_);
@@ -157,7 +157,7 @@ class ReducedSum {
   const MatrixXd& sum() const { return sum_; }
 
  private:
-  static constexpr Index block = 16;  // shapes: all fields of one are next to each other
+  static constexpr Index block = 16;  // number of shapes; all fields of a shape are next to each other
 
   /// Rows x, y, z of node a in g T: (fields, 3 n).
   void make(int a, double* out) {
@@ -183,7 +183,7 @@ class ReducedSum {
   MatrixXd sum_;
 };
 
-/// T^T (g (x) I3) T of all fields: (n, n fields), in the layout of ReducedSum.
+/// Returns T^T (g (x) I3) T of all fields: (n, n fields), in the layout of ReducedSum.
 MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
   std::vector<MatrixXd> sums(static_cast<std::size_t>(threads));
 #pragma omp parallel num_threads(threads)

@@ -115,7 +115,7 @@ class BlockError {
  private:
   static constexpr int most_points = SolidCell<N>::is_second_order && N != 10 ? 27 : 8;  // number of points of `rule_`
 
-  /// W of a cell; of a wound material W Q^T, the stress of which is smooth in the material's axes.
+  /// Returns W of a cell; of a wound material W Q^T, the stress of which is smooth in the material's axes.
   Matrix6 root(Eigen::Index e) const {
     const Matrix6& root = roots_[static_cast<std::size_t>(block_.material_number(e))];
     const Material& material = block_.material(e);
@@ -179,7 +179,7 @@ class BlockError {
   Eigen::MatrixXd shares_;         // functions of order 1 of the vertices at the points of `rule_`
 };
 
-/// Places of all samples, and memory for the stresses of some fields.
+/// Returns the places of all samples, and memory for the stresses of some fields.
 StressSamples make_samples(const Solid& solid, Eigen::Index fields) {
   StressSamples samples;
   for_each_block(solid, [&]<int N>(const SolidBlock& block) {
@@ -211,7 +211,7 @@ class Estimate {
       sampled = std::min(sampled, static_cast<std::size_t>(BlockError<N>::sampling_rule().weights.size()));
     });
     terms_ = terms_of_order(order);
-    least_cells_ = 2 * static_cast<std::size_t>(terms_) / sampled + 1;  // two samples for each term
+    least_cells_ = 2 * static_cast<std::size_t>(terms_) / sampled + 1;  // for two samples per term
     std::size_t most_vertices = 0;
     for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) {
       around_.push_back(surroundings(solid, m));

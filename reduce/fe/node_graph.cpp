@@ -39,8 +39,8 @@ CellsOfNodes cells_of_nodes(const SolidCells& cells, Eigen::Index points) {
   return result;
 }
 
-/// y = sum_k factors[k] x_k, for some of the entries of each row x_k. @param rows  numbers of the rows, which are
-/// `stride` apart
+/// Computes y = sum_k factors[k] x_k, for some of the entries of each row x_k. @param rows  numbers of the rows, which
+/// are `stride` apart
 template <int width>
 void set_sum_of_rows(std::span<const double> factors, const int* rows, const double* x, Eigen::Index stride,
                      double* y) {

@@ -52,8 +52,8 @@ struct Moments {
   }
 };
 
-/// Moments of the solid, with r from `origin`. Cells are summed up in groups, which do not depend on the number of
-/// threads.
+/// Returns the moments of the solid, with r from `origin`. Cells are summed up in groups, which do not depend on the
+/// number of threads.
 template <int N>
 Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vector3d& origin, int threads) {
   constexpr Eigen::Index together = 512;
@@ -77,7 +77,7 @@ Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vecto
   return result;
 }
 
-/// Moments of the nodes of a lumped solid without its coatings. The volume is that of the lumped functions, the same.
+/// Returns the moments of the nodes of a lumped solid without its coatings. The lumped functions have the same volume.
 template <int N>
 Moments lumped_moments(const SolidBlock& block, const Eigen::Vector3d& origin) {
   const CellMass<N> mass;
@@ -91,7 +91,7 @@ Moments lumped_moments(const SolidBlock& block, const Eigen::Vector3d& origin) {
   return result;
 }
 
-/// Moments of a coating, which has no volume.
+/// Returns the moments of a coating, which has no volume.
 Moments coating_moments(const Solid& solid, const Coating& coating, const Eigen::Vector3d& origin) {
   Moments result;
   for_each_face(solid.mesh, coating.faces, [&](const FacePoints& face) {

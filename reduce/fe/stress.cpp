@@ -14,8 +14,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Values at the nodes of a cell from those at the points of a rule, (nodes, points): those of the functions of order 1
-/// that fit them best.
+/// Returns the matrix of values at the nodes of a cell from those at the points of a rule, (nodes, points): those of
+/// the functions of order 1 that fit them best.
 template <int N>
 Eigen::MatrixXd extrapolation(const Quadrature& rule) {
   if (rule.weights.size() == 1) return Eigen::MatrixXd::Ones(N, 1);
@@ -65,7 +65,7 @@ Quadrature sampling() {
   return cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2);
 }
 
-/// Volumes of all cells by the sampling points.
+/// Returns the volumes of all cells by the sampling points.
 std::vector<double> cell_volumes(const Solid& solid, int threads) {
   std::vector<double> volumes(solid.cells.size());
   for_each_block(solid, [&]<int N>(const SolidBlock& block) {
@@ -81,7 +81,7 @@ std::vector<double> cell_volumes(const Solid& solid, int threads) {
 /// The requested nodes with the numbers that the sum over their cells needs.
 struct StressSum {
   const RowMatrix& fields;
-  std::vector<double> volumes;  // each cell has one
+  std::vector<double> volumes;  // volume of each cell
   NodeShares shares;
   std::vector<int> row_of;  // row of the result for each point; -1: not requested
 
@@ -89,7 +89,7 @@ struct StressSum {
     const int node = block.nodes(a, cell);
     return row_of[node] >= 0 && shares.material[node] == block.material_number(cell);
   }
-  /// Cells of the block that contribute to requested nodes.
+  /// Returns the cells of the block that contribute to requested nodes.
   std::vector<int> cells(const SolidBlock& block) const {
     std::vector<int> result;
     for (int e = 0; e < block.cells(); ++e)

@@ -16,7 +16,8 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index fewest_points = 10;  // points that tell directions inside
+// Smallest number of points whose shapes determine the directions of inertia.
+constexpr Eigen::Index fewest_points = 10;
 
 Eigen::MatrixXd sum_of(const std::array<Eigen::MatrixXd, 6>& components) {
   return components[0] + components[1] + components[2];
@@ -33,7 +34,7 @@ Eigen::MatrixXd complete(std::array<Eigen::MatrixXd, 6>& components, const Eigen
   return rest;
 }
 
-/// Largest |v^T rest v| / v^T mass v of some motions v.
+/// Returns the largest |v^T rest v| / v^T mass v of some motions v.
 double largest_share(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions) {
   double result = 0;
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
@@ -49,14 +50,14 @@ bool add_up(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::Matri
   return (scale.asDiagonal() * (mass - sum_of(components)) * scale.asDiagonal()).cwiseAbs().maxCoeff() < 1e-6;
 }
 
-/// S_kl of equal point masses at the points of the shapes.
+/// Returns S_kl of equal point masses at the points of the shapes.
 std::array<Eigen::MatrixXd, 6> equal_masses(NodalShapes points, const Eigen::MatrixXd& shapes, double mass) {
   points.masses.setConstant(points.points.cols(), mass / static_cast<double>(points.points.cols()));
   points.inertias.clear();
   return inertia_of_points(points, product(points.displacement, shapes), {});
 }
 
-/// Replaces the moments of the nodes by those that the interfaces show in full.
+/// Replaces the moments of the nodes by those of the interfaces where these show nearly all of the deformation.
 void take_shown(const ShownMoments& shown, const Eigen::Matrix3d& axes, RestMoments& moments) {
   constexpr double in_full = 0.9;
   RestMoments principal = turned_moments(moments, axes);

@@ -9,7 +9,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Nodes with all three components from `first` on.
+/// Returns the nodes with all three components from `first` on.
 std::vector<bool> nodes_with(const MatrixSet& set, int first) {
   std::vector<int> count(set.numbers.size(), 0);
   for (const NodalUnknown& u : set.unknowns)
@@ -26,7 +26,7 @@ class PlaceGrid {
     for (Eigen::Index k = 0; k < places.cols(); ++k) cells_[cell_of(places.col(k))].push_back(k);
   }
 
-  /// Places no farther than the tolerance, ascending.
+  /// Returns the places no farther than the tolerance, ascending.
   std::vector<Eigen::Index> near(const Eigen::Vector3d& place) const {
     std::vector<Eigen::Index> result;
     const Cell middle = cell_of(place);

@@ -13,7 +13,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// G: stiffnesses of the size of the largest one of the unknowns that a condition concerns.
+/// Returns G: stiffnesses of the size of the largest one of the unknowns that a condition concerns.
 Eigen::VectorXd condition_stiffness(const SparseColumns& conditions, const Eigen::VectorXd& diagonal) {
   Eigen::VectorXd result(conditions.cols());
   for (Eigen::Index k = 0; k < conditions.cols(); ++k) {

@@ -20,7 +20,7 @@ namespace {
 using NodeRows = Eigen::Matrix<double, 3, 6>;
 constexpr int reweightings = 30;
 
-/// Weights of a sum of distances in place of their squares. @param size  distance that counts as none
+/// Returns weights that make a sum of squares one of distances. @param size  distance that counts as zero
 Eigen::VectorXd weights_by(const Eigen::VectorXd& distances, double size) {
   return (distances.array() / size + 1e-9).inverse().min(1e9).matrix() / 1e9;
 }
@@ -76,7 +76,8 @@ SixByThree translations_of(const NodalMotion& motion, double length) {
   return result;
 }
 
-/// Combinations that turn all nodes alike, by their rotations; which translation they contain is open.
+/// Returns the combinations that turn all nodes alike, by their rotations. The translations that they contain are
+/// arbitrary.
 SixByThree rotations_by_nodes(const NodalMotion& motion) {
   const std::size_t count = motion.nodes.size();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(count));
@@ -135,7 +136,7 @@ double angle_of(const Eigen::Matrix3d& turn) {
   return std::atan2(axis.norm(), turn.trace() - 1);
 }
 
-/// Positions by u = theta x x with unit theta, up to a common displacement.
+/// Returns the positions by u = theta x x with unit theta, up to a common displacement.
 Eigen::Matrix3Xd positions_by(const NodalMotion& motion, const SixByThree& rotations) {
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(motion.nodes.size()));
   for (std::size_t a = 0; a < motion.nodes.size(); ++a) {
@@ -152,8 +153,8 @@ double median_of(Eigen::VectorXd values) {
   return *middle;
 }
 
-/// Returns the quaternion with the largest q^T n q. Points on a line leave it open, and the one of the smallest angle
-/// is taken.
+/// Returns the quaternion with the largest q^T n q. It is not unique for points on a line; the one with the smallest
+/// angle is then taken.
 Eigen::Vector4d least_turn(const Eigen::Matrix4d& n) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(n);
   const auto equal = (pairs.values.array() > pairs.values(3) - 1e-6 * std::abs(pairs.values(3))).count();
@@ -162,7 +163,7 @@ Eigen::Vector4d least_turn(const Eigen::Matrix4d& n) {
   return q.norm() > 1e-6 ? q.normalized() : Eigen::Vector4d(pairs.vectors.col(3));
 }
 
-/// Sum of the distances of points from their median.
+/// Returns the sum of the distances of points from their median.
 double spread_of(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d centre(median_of(points.row(0)), median_of(points.row(1)), median_of(points.row(2)));
   return (points.colwise() - centre).colwise().norm().sum();
@@ -190,7 +191,7 @@ std::optional<ImpliedPositions> implied_positions(const MatrixStudy& study, cons
   const Eigen::Matrix3Xd given = study.set.positions(Eigen::all, result.nodes);
   result.positions *= spread_of(given) / spread_of(result.positions);
   const Eigen::Matrix3Xd mirrored = -result.positions;
-  // Both fit a flat set of nodes, one of them turned by half a turn: the smaller turn decides.
+  // For a flat set of nodes both fit, one of them after a rotation by half a turn. The smaller rotation is then chosen.
   const Similarity as_found = nearest_similarity(given, result.positions), other = nearest_similarity(given, mirrored);
   const double found = as_found.distances.sum(), opposite = other.distances.sum();
   const bool both = std::abs(found - opposite) < 1e-6 * spread_of(given);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int fields = 12;
 
-/// Displacements of the unknowns in the twelve fields (n, 12).
+/// Returns the displacements of the unknowns in the twelve fields (n, 12).
 Eigen::MatrixXd linear_fields(const MatrixSet& set, const Eigen::Vector3d& origin) {
   Eigen::MatrixXd result(set.size(), fields);
   for (Eigen::Index k = 0; k < set.size(); ++k) {

@@ -50,7 +50,7 @@ Eigen::MatrixXd every_third_row(const Eigen::MatrixXd& matrix, int first) {
   return matrix(Eigen::seqN(first, matrix.rows() / 3, 3), Eigen::all);
 }
 
-/// (nodes, 3 nodes): rows s x e_l of each pair of nodes.
+/// Returns (nodes, 3 nodes): rows s x e_l of each pair of nodes.
 SparseColumns arms(const SparseColumns& coupling, int l) {
   Entries entries;
   for_blocks(coupling, [&](int a, int b, const Eigen::Matrix3d& block) {
@@ -61,7 +61,7 @@ SparseColumns arms(const SparseColumns& coupling, int l) {
   return made_of(entries, coupling.rows() / 3, coupling.cols());
 }
 
-/// (3 nodes, 3 nodes): e_k~^T P e_l~ of each pair of nodes.
+/// Returns (3 nodes, 3 nodes): e_k~^T P e_l~ of each pair of nodes.
 SparseColumns clouds(const SparseColumns& rotary, int k, int l) {
   Entries entries;
   const Eigen::Matrix3d left = skew(Eigen::Vector3d::Unit(k)).transpose(), right = skew(Eigen::Vector3d::Unit(l));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double massless = 1e-14;  // eigenvalue of M_ii relative to its largest, or of 1/omega^2
 
-/// All modes with mass: with M = B B^T and the flexibility F of the held body, B^T F B w = omega^-2 w and
+/// Returns all modes with mass. With M = B B^T and the flexibility F of the held body, B^T F B w = omega^-2 w and
 /// phi = omega^2 F B w. It needs neither a regular M nor a regular K.
 Eigenpairs all_modes(const HeldMatrices& held) {
   const Eigen::Index n = held.size();

@@ -41,7 +41,7 @@ std::vector<double> finite_numbers(const Hdf5File& file, const std::string& data
   return values;
 }
 
-/// Columns of three numbers, from rows of three.
+/// Reads columns of three numbers, from rows of three.
 Eigen::Matrix3Xd columns_of_three(const Hdf5File& file, const std::string& dataset, std::size_t rows) {
   require_shape(file, dataset, {rows, 3});
   const std::vector<double> values = finite_numbers(file, dataset);
@@ -109,7 +109,7 @@ SparseColumns read_sparse(const Hdf5File& file, const std::string& group, Eigen:
   return result;
 }
 
-/// Cells by gmsh's element type. @param count  of the places that they connect
+/// Reads cells by gmsh's element type. @param count  of the places that they connect
 std::map<int, Eigen::MatrixXi> read_cells(const Hdf5File& file, const std::string& group, std::size_t count) {
   std::map<int, Eigen::MatrixXi> result;
   if (!file.has(group)) return result;

@@ -39,7 +39,7 @@ void measure_box(MatrixStudy& study) {
   if (masses > 0 && inertias > 0) study.length = std::sqrt(inertias / masses);
 }
 
-/// Scalars follow the nodes statically.
+/// Sets the scalars to their static response to the motions of the nodes.
 void condense_scalars(const MatrixStudy& study, Eigen::MatrixXd& motions) {
   Unknowns nodal, scalar;
   for (Eigen::Index k = 0; k < study.size(); ++k)
@@ -84,13 +84,13 @@ void find_geometric(MatrixStudy& study) {
   study.geometric = product(pseudo_inverse(set.shapes->displacement), wanted);
 }
 
-/// Six unknowns that determine a combination of six motions best: by pivoting, so that they are far apart.
+/// Finds six unknowns that determine a combination of six motions best: by pivoting, so that they are far apart.
 Unknowns find_references(const MatrixStudy& study, const Eigen::MatrixXd& motions) {
   const bool nodal = study.set.scalars() < study.size();
   const Eigen::VectorXd diagonal = study.stiffness.diagonal(), mass = study.mass.diagonal();
   Eigen::MatrixXd rows = nodal ? study.observed(motions) : mass.cwiseAbs().cwiseSqrt().asDiagonal() * motions;
   const Eigen::VectorXd sizes = rows.colwise().norm().cwiseMax(1e-300);
-  // A node without stiffness is no reference, unless the interfaces move the body without deformation.
+  // A node without stiffness is not used as a reference, unless the interfaces move the body without deformation.
   const bool stiff = nodal && (rows.rowwise().squaredNorm().array() > 0 && diagonal.array() > 0).count() >= 6;
   for (Eigen::Index k = 0; k < study.size(); ++k)
     if (stiff && !(diagonal(k) > 0)) rows.row(k).setZero();
@@ -115,7 +115,7 @@ double least_held_eigenvalue(const Factor& factor, const SparseColumns& mass) {
   return eigenvalue;
 }
 
-/// @param rigid  (n,6) rigid motions to choose the references by
+/// @param rigid  (n,6) rigid motions by which the references are chosen
 /// @returns an estimate of the least eigenvalue of the body held at the references; 0: unknown
 double find_statical(MatrixStudy& study, const Eigen::MatrixXd& rigid) {
   study.references = find_references(study, rigid);
@@ -188,7 +188,8 @@ Eigen::MatrixXd MatrixStudy::observed(const Eigen::MatrixXd& motions) const {
 
 Eigen::MatrixXd MatrixStudy::relative_forces(const Eigen::MatrixXd& motions) const {
   Eigen::VectorXd root = Eigen::VectorXd(stiffness.diagonal()).cwiseMax(0).cwiseSqrt();
-  // Rigid amplitudes have no stiffness of their own: they count with a small one, or their motion would have no size.
+  // Rigid amplitudes have no stiffness of their own. A small one is used instead, because their motion would otherwise
+  // have no size.
   constexpr double small = 1e-4;
   const double largest = std::max(root.maxCoeff(), 1e-300);
   root = Eigen::VectorXd((root.array() > 0).select(root, small * largest));

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_default_interfaces = 200;
 
-/// Motion of a node (translation, then rotation, body axes) for one direction of an interface.
+/// Returns the motion of a node (translation, then rotation, body axes) for one direction of an interface.
 Eigen::Matrix<double, 6, 1> carried_motion(const Interface& interface, int axis, const Eigen::Vector3d& node) {
   const Eigen::Vector3d unit = interface.rotation.col(axis % 3);
   Eigen::Matrix<double, 6, 1> motion;

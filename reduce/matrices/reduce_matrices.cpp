@@ -136,7 +136,7 @@ void add_recovery(const PointMotions& motions, const Eigen::MatrixXd& shapes, Su
     put_exact_rigid_motions(body.interfaces, mass_properties(body), body.mesh.points, body.displacement_recovery);
 }
 
-/// The file's damping acts on deformation alone, as all damping of a superelement.
+/// Returns the damping. That of the file acts on deformation alone, as all damping of a superelement.
 Eigen::MatrixXd damping_of(const MatrixSet& set, const MatrixOptions& options, const Eigen::MatrixXd& shapes,
                            const FreeModes& free, const Superelement& body, const Eigen::MatrixXd& rigid) {
   if (options.rayleigh) return (*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness;

@@ -25,7 +25,7 @@ struct RigidForce {
   Eigen::Index direction = 0, motion = 0;
 };
 
-/// Units of the kept directions: 1 for translations, the radius of gyration for rotations.
+/// Returns the units of the kept directions: 1 for translations, the radius of gyration for rotations.
 Eigen::VectorXd unit_lengths(const std::vector<Interface>& interfaces, Eigen::Index kept, double length) {
   Eigen::VectorXd result(kept);
   Eigen::Index row = 0;

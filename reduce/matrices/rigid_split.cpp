@@ -26,15 +26,15 @@ Eigen::MatrixXd semidefinite_inverse(const Eigen::MatrixXd& A) {
   return vectors * inverse.asDiagonal() * vectors.transpose();
 }
 
-/// Rate of u_k along x_l of the rigid part, for each coordinate.
+/// Returns the rate of u_k along x_l of the rigid part, for each coordinate.
 Eigen::RowVectorXd rigid_gradient(const RigidSplit& split, int k, int l) {
   Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(split.rates.cols());
   for (int a = 0; a < 3; ++a) result += skew(Eigen::Vector3d::Unit(a))(k, l) * split.rates.row(3 + a);
   return result;
 }
 
-/// The rest has no angular momentum, so that N_kl = N_lk. If they differ, the mean has weights by which that with
-/// the shorter arm counts most: a line of mass has no N_kl along l across it.
+/// Returns symmetric moments: the rest has no angular momentum, so that N_kl = N_lk. If they differ, the mean has
+/// weights by which that with the shorter arm counts most: a line of mass has no N_kl along l across it.
 RestMoments symmetric_moments(const RestMoments& found, const RigidSplit& split) {
   const Eigen::Vector3d& P = split.principal;
   RestMoments result = turned_moments(found, split.axes);
@@ -48,13 +48,13 @@ RestMoments symmetric_moments(const RestMoments& found, const RigidSplit& split)
   return turned_moments(result, split.axes.transpose());
 }
 
-/// S_kl for any k and l from the six.
+/// Returns S_kl for any k and l from the six.
 Eigen::MatrixXd component(const std::array<Eigen::MatrixXd, 6>& S, int k, int l) {
   const Eigen::MatrixXd& stored = S[static_cast<std::size_t>(voigt(k, l))];
   return k <= l ? stored : Eigen::MatrixXd(stored.transpose());
 }
 
-/// S_kl of rigid part and rest.
+/// Returns S_kl of rigid part and rest.
 std::array<Eigen::MatrixXd, 6> joined(const RigidSplit& split, const RestMoments& moments,
                                       const std::array<Eigen::MatrixXd, 6>& rest) {
   const Eigen::Index n = split.rates.cols();
@@ -81,8 +81,9 @@ std::array<Eigen::MatrixXd, 6> joined(const RigidSplit& split, const RestMoments
   return result;
 }
 
-/// Gradients of the linear fields nearest to the rest, times the roots of P, in the axes of the body: rows (3,N) of u_k
-/// in principal axes. Moments across a thin body are dropped. @param moments  in principal axes; changed accordingly
+/// Returns the gradients of the linear fields nearest to the rest, times the roots of P, in the axes of the body: rows
+/// (3,N) of u_k in principal axes. Moments across a thin body are dropped. @param moments  in principal axes; changed
+/// accordingly
 std::array<Eigen::MatrixXd, 3> linear_part(const RigidSplit& split, RestMoments& moments) {
   const Eigen::Vector3d& P = split.principal;
   const Eigen::Index n = moments[0][0].size();
@@ -101,7 +102,7 @@ std::array<Eigen::MatrixXd, 3> linear_part(const RigidSplit& split, RestMoments&
   return result;
 }
 
-/// X with X^T M X = R, for R between 0 and M.
+/// Returns X with X^T M X = R, for R between 0 and M.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& R, const Eigen::MatrixXd& mass) {
   const auto pairs = symmetric_eigenpairs((R + R.transpose()) / 2, mass);
   if (!pairs) throw ComputationError("the mass matrix of the reduced body is not positive definite");

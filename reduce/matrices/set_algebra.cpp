@@ -60,7 +60,7 @@ LeastEigenvalue least_of_large(const SparseColumns& A, int threads) {
                                        [](const Eigen::MatrixXd& x) { return x; }};
       EigenpairOptions options;
       options.threads = threads;
-      options.tolerance = 1e-4;  // relative to the distance to the shift: a size is sought, no digits
+      options.tolerance = 1e-4;  // relative to the distance from the shift; only the order of magnitude is needed
       const Eigenpairs pairs = shift_invert_eigenpairs(problem, 1, options);
       return {pairs.values(0), largest_part(pairs.vectors.col(0))};
     } catch (const NotPositiveDefinite&) {

@@ -91,7 +91,7 @@ ElasticModes elastic_modes_of(const MatrixStudy& study) {
   return {study.modes->eigenvalues.tail(count).unaryExpr(&signed_frequency), study.modes->vectors.rightCols(count)};
 }
 
-/// Modes that move a common place by more than rounding: the MAC of others is that of rounding.
+/// Returns which modes move a common place by more than rounding. The MAC of all others is only rounding.
 std::vector<bool> seen_modes(const Eigen::MatrixXd& u) {
   const Eigen::VectorXd lengths = u.colwise().norm();
   const double least = text_rounding * lengths.maxCoeff();
@@ -100,7 +100,7 @@ std::vector<bool> seen_modes(const Eigen::MatrixXd& u) {
   return result;
 }
 
-/// MAC_ij = (u_i . v_j)^2 / (|u_i|^2 |v_j|^2)
+/// Returns MAC_ij = (u_i . v_j)^2 / (|u_i|^2 |v_j|^2).
 Eigen::MatrixXd assurance(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
   const Eigen::VectorXd lengths = u.colwise().norm().cwiseMax(1e-300), others = v.colwise().norm().cwiseMax(1e-300);
   return (lengths.cwiseInverse().asDiagonal() * transposed_product(u, v) * others.cwiseInverse().asDiagonal())
@@ -128,7 +128,7 @@ Eigen::Index counterpart(const Eigen::RowVectorXd& mac, double frequency, const 
   return best;
 }
 
-/// Share of u in the span of the modes that are as frequent as mode j.
+/// Returns the share of u in the span of the modes that are as frequent as mode j.
 double group_assurance(const Eigen::VectorXd& u, const SeenModes& b, Eigen::Index j) {
   std::vector<Eigen::Index> group;
   for (Eigen::Index k = 0; k < b.modes.frequencies.size(); ++k)
@@ -180,7 +180,7 @@ void list_frequencies(const ElasticModes& a, const ElasticModes& b, VerifiedSubj
               fmt::format("the first free frequencies are {:.6g} and {:.6g} Hz", a.frequencies(0), b.frequencies(0)));
 }
 
-/// phi_a^T M_b phi_b of unit modal masses; the unit matrix for the same modes.
+/// Checks phi_a^T M_b phi_b of unit modal masses, which is the unit matrix for the same modes.
 void compare_orthogonality(const MatrixStudy& a, const MatrixStudy& b, const ElasticModes& of_a,
                            const ElasticModes& of_b, double tolerance, VerifiedSubject& subject) {
   std::optional<Eigen::MatrixXd> moved = expressed_in(b.set, a.set, of_a.vectors, tolerance);
@@ -227,7 +227,8 @@ VerifiedSubject compare(MatrixSet a, MatrixSet b, int threads) {
     subject.lines.push_back(fmt::format("{} of the same number at another place",
                                         common.moved == 1 ? "1 node is" : fmt::format("{} nodes are", common.moved)));
   subject.lines.push_back(fmt::format("{} in common", counted(common.a.size(), "place")));
-  // Two places on a line tell bending in two planes and extension, but neither torsion nor order: three at least.
+  // Two places on a line show bending in two planes and extension, but neither torsion nor the order of bending. At
+  // least three places are needed.
   if (common.a.size() < 3) {
     list_frequencies(modes_a, modes_b, subject);
   } else {

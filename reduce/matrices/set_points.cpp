@@ -19,7 +19,7 @@ bool has_all(const MatrixSet& set, int node, bool rotations) {
                        [&](const NodalUnknown& u) { return u.node == node && u.is_rotation() == rotations; }) == 3;
 }
 
-/// Displacement or rotation of a node (3,n).
+/// Returns the displacement or rotation of a node (3,n).
 Eigen::MatrixXd rows_of_node(const MatrixSet& set, int node, bool rotations) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, set.size());
   for (Eigen::Index k = 0; k < set.size(); ++k) {
@@ -30,7 +30,7 @@ Eigen::MatrixXd rows_of_node(const MatrixSet& set, int node, bool rotations) {
   return result;
 }
 
-/// Cells whose nodes are all points. @param point_of  point of each node, or -1
+/// Returns the cells whose nodes are all points. @param point_of  point of each node, or -1
 std::map<int, Eigen::MatrixXi> cells_of(const std::map<int, Eigen::MatrixXi>& cells, const std::vector<int>& point_of) {
   std::map<int, Eigen::MatrixXi> result;
   for (const auto& [type, block] : cells) {
@@ -43,7 +43,7 @@ std::map<int, Eigen::MatrixXi> cells_of(const std::map<int, Eigen::MatrixXi>& ce
   return result;
 }
 
-/// Unit forces and moments (n, k) of the requested directions.
+/// Returns unit forces and moments (n, k) of the requested directions.
 Eigen::MatrixXd loads_of(const SetPoint& point) {
   std::vector<int> wanted;
   for (int axis = 0; axis < 6; ++axis)

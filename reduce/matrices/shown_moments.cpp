@@ -19,7 +19,8 @@ namespace {
 constexpr double thin_direction =
     1e-6;  // relative to the largest principal P: below, a body counts as thin in that direction
 
-/// Interface coordinates (N) of the field (e_k x_l + e_l x_k) / 2, or e_k x_k; axes: principal ones -> body axes.
+/// Returns the interface coordinates (N) of the field (e_k x_l + e_l x_k) / 2, or e_k x_k; axes: principal ones -> body
+/// axes.
 Eigen::VectorXd shown_field(const std::vector<Interface>& interfaces, Eigen::Index size, const Eigen::Vector3d& centre,
                             const Eigen::Matrix3d& axes, int k, int l) {
   const Eigen::Matrix3d gradient = (axes.col(k) * axes.col(l).transpose() + axes.col(l) * axes.col(k).transpose()) / 2;

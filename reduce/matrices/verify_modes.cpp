@@ -51,7 +51,7 @@ void tell_held_frequencies(const MatrixStudy& study, VerifiedSubject& subject) {
     subject.lines.push_back(fmt::format("{:>10}  {}", "sum", shares(found->effective_mass.colwise().sum())));
 }
 
-/// Size of the entries besides the diagonal, relative to it.
+/// Returns the size of the entries besides the diagonal, relative to it.
 double besides_diagonal(const SparseColumns& A) {
   const Eigen::VectorXd root = Eigen::VectorXd(A.diagonal()).cwiseAbs().cwiseSqrt().cwiseMax(1e-300);
   double largest = 0;
@@ -70,7 +70,8 @@ double largest_coupling(const SparseColumns& A, const Unknowns& rows, const Unkn
              : 0.0;
 }
 
-/// Scalars need not be modes of the held body; whether they are tells the kind of a reduction.
+/// Reports whether the scalars are modes of the held body, which need not be so. The answer reveals the kind of
+/// reduction.
 void tell_scalars(const MatrixStudy& study, VerifiedSubject& subject) {
   Unknowns nodal, scalar;
   for (Eigen::Index k = 0; k < study.size(); ++k)

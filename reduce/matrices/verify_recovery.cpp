@@ -22,9 +22,9 @@ struct WorstRow {
   Eigen::Index row = 0;
 };
 
-/// Largest value under rigid motions. It is relative to the largest sum of |s_ij u_j|, its size without cancellation,
-/// or to the largest value in an elastic mode of the same displacement: the first one is rounding if interfaces move
-/// the body without deformation.
+/// Returns the largest value under rigid motions. It is relative to the largest sum of |s_ij u_j|, its size without
+/// cancellation, or to the largest value in an elastic mode of the same displacement: the first one is rounding if
+/// interfaces move the body without deformation.
 WorstRow worst_row(const MatrixStudy& study, const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd& rigid = *study.geometric;
   const Eigen::MatrixXd values = product(matrix, rigid).cwiseAbs();

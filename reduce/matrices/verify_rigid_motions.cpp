@@ -27,7 +27,7 @@ WorstForce worst_force(const MatrixStudy& study, const Eigen::MatrixXd& motions)
   return worst;
 }
 
-/// Largest part of the wanted motions that no combination of the others has, relative to their size.
+/// Returns the largest part of the wanted motions that no combination of the others has, relative to their size.
 double distance_of(const MatrixStudy& study, const Eigen::MatrixXd& motions, const Eigen::MatrixXd& wanted) {
   const Eigen::MatrixXd from = study.observed(motions), to = study.observed(wanted);
   const Eigen::MatrixXd rest = to - from * few_least_squares(from, to);

@@ -33,7 +33,8 @@ double implausibility(const Sizes& sizes, const UnitSystem& units) {
          outside(sizes.frequency / units.time * length, 0.05, 6e3);
 }
 
-/// Distance of the density from that of usual parts, half filled with metal, among systems that are equally plausible.
+/// Returns the distance of the density from that of usual parts, half filled with metal, among systems that are equally
+/// plausible.
 double unlikelihood(const Sizes& sizes, const UnitSystem& units) {
   if (!(sizes.density > 0)) return 0;
   return std::abs(std::log10(sizes.density * units.mass / std::pow(units.length, 3) / 3000));

@@ -28,7 +28,7 @@ void name_solids(const MeshRequest& request, const std::vector<BodySolid>& solid
     if (std::any_of(solids.begin(), solids.end(), [&](const BodySolid& solid) { return solid.is_called(name); }))
       names.insert(name);
   if (names.empty() && !regions) return;
-  // All others are suggested for wrong names, unless the only solid has none.
+  // The other names are added because they are suggested for wrong ones, unless the only solid has no name.
   for (const BodySolid& solid : solids)
     if (solids.size() > 1 || !solid.path.empty()) names.insert(solid.name());
   for (const std::string& name : names) {

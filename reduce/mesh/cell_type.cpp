@@ -25,7 +25,7 @@ const Sides of_hexahedron = {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6,
 const Sides of_wedge = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {0, 3, 5, 2}, {1, 2, 5, 4}};
 const Sides of_pyramid = {{0, 1, 4}, {3, 0, 4}, {1, 2, 4}, {2, 3, 4}, {0, 3, 2, 1}};
 
-/// Node in the middle of the edge between two vertices.
+/// Returns the node in the middle of the edge between two vertices.
 int middle(const CellInfo& cell, int a, int b) {
   for (std::size_t k = 0; k < cell.edges.size(); ++k) {
     const auto& [first, second] = cell.edges[k];
@@ -91,7 +91,7 @@ const std::vector<CellInfo>& cell_table() {
 }
 
 const CellInfo& cell_info(CellType type) {
-  // Looked up for every face of a mesh: by number.
+  // Types are found by number, because this is called for every face of a mesh.
   static const std::vector<const CellInfo*> by_number = [] {
     std::vector<const CellInfo*> all;
     for (int k = 0; k <= static_cast<int>(CellType::pyramid13); ++k) all.push_back(find_type(k));

@@ -19,7 +19,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr const char* python = "/usr/bin/python3";  // the one whose meshio is packaged
+constexpr const char* python = "/usr/bin/python3";  // the Python for which the distribution packages meshio
 constexpr const char* converter = "convert_mesh.py";
 
 std::filesystem::path find_tool(const std::string& tool) {

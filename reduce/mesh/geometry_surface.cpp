@@ -17,8 +17,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little-endian");
 
-/// Fineness of what is drawn: triangles per turn of a curved surface, and their largest and smallest size relative to
-/// the largest side of the whole.
+/// Fineness of the drawing: triangles per turn of a curved surface, and their largest and smallest size relative to the
+/// largest side of the whole.
 constexpr double drawn_per_turn = 24, drawn_coarsest = 0.1, drawn_finest = 0.002;
 
 void mesh_drawn_surface(GmshSession& session, const SourceFile& source, double extent) {

@@ -42,7 +42,7 @@ struct SizeCallback {
   ~SizeCallback() {
     try {
       gmsh::model::mesh::removeSizeCallback();
-    } catch (...) {  // never without a session
+    } catch (...) {  // this only fails without a session
     }
   }
   SizeCallback(const SizeCallback&) = delete;

@@ -92,7 +92,8 @@ std::optional<std::pair<int, int>> overlapping_cells(const SolidCells& cells, co
     for (Eigen::Index k = 0; k < corners.cols(); ++k) box.extend(corners.col(k));
   }
   constexpr std::size_t few = 100;
-  if (boxes.size() > few) return {};                        // the nodes of a whole mesh are not merged
+  // So many pieces occur if the nodes of a whole mesh are not merged.
+  if (boxes.size() > few) return {};
   std::vector<std::pair<int, Eigen::Vector3d>> candidates;  // cells with their centroids in the box of another piece
   for (int e = 0; e < cells.size(); ++e) {
     const Eigen::Vector3d middle = centroid(cells, e);

@@ -14,8 +14,8 @@ struct Rule {
   Eigen::VectorXd points, weights;
 };
 
-/// n-point Gauss-Jacobi rule on [0,1] for the weight (1 - x)^a, degree 2n - 1: eigenvalues of the Jacobi matrix
-/// (G. H. Golub, J. H. Welsch, Math. Comp. 23 (1969) 221).
+/// Returns the n-point Gauss-Jacobi rule on [0,1] for the weight (1 - x)^a, degree 2n - 1: eigenvalues of the Jacobi
+/// matrix (G. H. Golub, J. H. Welsch, Math. Comp. 23 (1969) 221).
 Rule gauss_jacobi(int n, int a) {
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int k = 0; k < n; ++k) {
@@ -70,7 +70,7 @@ Quadrature simplex_quadrature(int dimension, int degree) {
 
 namespace {
 
-/// Every point of one rule with every point of another, whose coordinates come behind.
+/// Combines every point of one rule with every point of another one, whose coordinates come last.
 Quadrature product(const Quadrature& first, const Quadrature& second) {
   const Eigen::Index n = first.weights.size(), m = second.weights.size(), d = first.points.rows();
   Quadrature all{Eigen::MatrixXd(d + second.points.rows(), n * m), Eigen::VectorXd(n * m)};
@@ -88,7 +88,7 @@ Quadrature line_quadrature(int degree) {
   return {(2 * unit.points.array() - 1).matrix().transpose(), 2 * unit.weights};
 }
 
-/// Points (a (1 - z), b (1 - z), z) with a, b on [-1, 1]: the Jacobian (1 - z)^2 goes into the weights of z.
+/// Returns points (a (1 - z), b (1 - z), z) with a, b on [-1, 1]: the Jacobian (1 - z)^2 goes into the weights of z.
 Quadrature pyramid_quadrature(int degree) {
   const Rule height = gauss_jacobi(degree / 2 + 1, 2);
   const Quadrature line = line_quadrature(degree);

@@ -15,7 +15,8 @@ using Point = std::array<Number, 3>;
 template <class Number>
 using Values = std::vector<Number>;
 
-/// On a simplex, by barycentric coordinates l: l_a or l_a (2 l_a - 1) at vertices, 4 l_a l_b on edges.
+/// Returns the functions of a simplex by barycentric coordinates l: l_a or l_a (2 l_a - 1) at vertices, 4 l_a l_b on
+/// edges.
 template <class Number>
 Values<Number> of_simplex(const CellInfo& cell, const Point<Number>& x) {
   std::vector<Number> l(1, Number(1.0));
@@ -31,8 +32,8 @@ Values<Number> of_simplex(const CellInfo& cell, const Point<Number>& x) {
   return n;
 }
 
-/// On [-1, 1]^d without nodes inside: products of 1 + s x at vertices, with 1 - x^2 along the edge of a mid-side node;
-/// at vertices of order 2 times (sum of s x) + 1 - d.
+/// Returns the functions on [-1, 1]^d without nodes inside: products of 1 + s x at vertices, with 1 - x^2 along the
+/// edge of a mid-side node; at vertices of order 2 times (sum of s x) + 1 - d.
 template <class Number>
 Values<Number> of_serendipity_cube(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   Values<Number> n;
@@ -49,7 +50,8 @@ Values<Number> of_serendipity_cube(const CellInfo& cell, const Eigen::MatrixXd& 
   return n;
 }
 
-/// On [-1, 1]^d with all nodes of the grid of three by three (by three): products of quadratic Lagrange polynomials.
+/// Returns the functions on [-1, 1]^d with all nodes of the grid of three by three (by three): products of quadratic
+/// Lagrange polynomials.
 template <class Number>
 Values<Number> of_full_cube(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   Values<Number> n;

@@ -33,7 +33,7 @@ const std::map<int, int> surfaces = {{41, 3}, {42, 6}, {44, 4}, {45, 8}, {51, 3}
 bool is_solid(int descriptor) {
   return (descriptor >= 101 && descriptor <= 119) || descriptor == 312 || descriptor == 313;
 }
-/// Nodes of a cell that is read, or none.
+/// Returns the nodes of a cell that is read, or none.
 std::optional<int> nodes_of_type(int descriptor) {
   for (const std::map<int, int>* cells : {&solids, &surfaces})
     if (const auto found = cells->find(descriptor); found != cells->end()) return found->second;
@@ -109,7 +109,7 @@ struct System {
   }
 };
 
-/// Dataset 2420: two lines of the part, then six lines of each system: label, kind and colour; name; three axes;
+/// Reads dataset 2420: two lines of the part, then six lines of each system: label, kind and colour; name; three axes;
 /// origin.
 std::map<int, System> read_systems(const std::string& path) {
   std::map<int, System> result;

@@ -71,7 +71,7 @@ void check_size(const MassRequest& request, double mass, double size) {
                     inertia));
 }
 
-/// L with L L^T = J; moments that rounding makes negative count as zero.
+/// Returns L with L L^T = J; moments that rounding makes negative count as zero.
 Eigen::Matrix3d root(const Eigen::Matrix3d& inertia) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(inertia);
   return pairs.vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal();

@@ -18,18 +18,20 @@ namespace {
 constexpr Eigen::Index most_examined = 16, least_examined = 3, most_meshed = 6, most_released = 6;
 constexpr double hertz = 2 * std::numbers::pi;
 
-/// Number of the lowest free modes that are examined: those below the first omitted mode, but at least a few.
+/// Returns the number of the lowest free modes that are examined: those below the first omitted mode, but at least a
+/// few.
 Eigen::Index examined(const Eigen::VectorXd& omega, double next_mode) {
   const Eigen::Index below = next_mode > 0 ? (omega.array() < hertz * next_mode).count() : omega.size();
   return std::min(omega.size(), std::clamp(below, least_examined, most_examined));
 }
 
-/// Relative excess of frequencies over others. A negative value, which rounding may cause, is replaced by 0.
+/// Returns the relative excess of frequencies over others. A negative value, which rounding may cause, is replaced by
+/// 0.
 Eigen::VectorXd excess(const Eigen::VectorXd& lambda, const Eigen::VectorXd& lower) {
   return (lambda.array() / lower.array()).sqrt().cwiseMax(1) - 1;
 }
 
-/// Share of the modes in the energy of the held body under accelerations along x, y and z.
+/// Returns the share of the modes in the energy of the held body under accelerations along x, y and z.
 Eigen::Vector3d inertia_answer(const Basis& basis) {
   Eigen::Vector3d share = Eigen::Vector3d::Ones();
   for (int axis = 0; axis < 3; ++axis) {

@@ -11,7 +11,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// M times the linear fields; masses have the field at their elements.
+/// Returns M times the linear fields; masses have the field at their elements.
 RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const Eigen::Vector3d& centre) {
   RowMatrix functions(solid.points(), 4);
   functions << Eigen::VectorXd::Ones(solid.points()), (solid.mesh.points.colwise() - centre).transpose();
@@ -44,7 +44,7 @@ Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties,
   return held.solve(loads, averages);
 }
 
-/// Psi <- Psi (I - U A) + U_points A
+/// Computes Psi <- Psi (I - U A) + U_points A.
 void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProperties& body, int threads, Basis& basis) {
   const Eigen::MatrixXd nearest = nearest_rigid_motion(ties.interfaces, body.centre, radius_of_gyration(body));
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(basis.kept(), basis.kept()) -
@@ -108,7 +108,7 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   basis.next = pairs.next;
   solutions.conservativeResize(Eigen::NoChange, kept + pairs.values.size());
   if (pairs.vectors.cols() > 0) solutions.rightCols(pairs.vectors.cols()) = pairs.vectors;
-  pairs.vectors.resize(0, 0);  // large, as all that counts points
+  pairs.vectors.resize(0, 0);  // frees memory: vectors with rows for all points are large
   basis.released = solutions.bottomRows(released);
   basis.shapes = held.expand(solutions);
   solutions.resize(0, 0);

@@ -75,7 +75,7 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
 
 }  // namespace
 
-/// U in all n coordinates: rigid motions have no component in fixed-boundary modes.
+/// Returns U in all n coordinates: rigid motions have no component in fixed-boundary modes.
 Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
   u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Coordinates of the interfaces of `uncut`, in its order, then all others.
+/// Returns the coordinates of the interfaces of `uncut`, in its order, then all others.
 std::vector<Index> outer_first(const Superelement& pieces, const Superelement& uncut) {
   std::map<std::string, std::vector<Index>> of_interface;
   Index next = 0;
@@ -35,7 +35,7 @@ std::vector<Index> outer_first(const Superelement& pieces, const Superelement& u
   return order;
 }
 
-/// Static stiffness of the first `outer` coordinates, with the others free (Schur complement).
+/// Returns the static stiffness of the first `outer` coordinates, with the others free (Schur complement).
 MatrixXd condensed(const MatrixXd& stiffness, Index outer) {
   const Index inner = stiffness.rows() - outer;
   // Scaled to a unit diagonal: displacements, angles and amplitudes have different units.

@@ -15,7 +15,8 @@ constexpr double dependent = 1e-8;  // energy of a shape that the others leave, 
 
 constexpr double equal_frequencies = 1e-2;
 
-/// Share of each of the first unit vectors in the eigenvectors x of nearly one frequency that have most of it.
+/// Returns the share of each of the first unit vectors in the eigenvectors x of nearly one frequency that have most of
+/// it.
 Eigen::VectorXd assurance_of(const Eigen::MatrixXd& mass, const EnrichedModes& modes, const Eigen::MatrixXd& x) {
   const Eigen::MatrixXd momenta = product(mass, x);
   const Eigen::VectorXd masses = x.cwiseProduct(momenta).colwise().sum().transpose();
@@ -30,7 +31,7 @@ Eigen::VectorXd assurance_of(const Eigen::MatrixXd& mass, const EnrichedModes& m
   return result;
 }
 
-/// The lowest modes of K x = mu M x, from M y = y / mu with y^T K y = 1: M may be singular.
+/// Returns the lowest modes of K x = mu M x, from M y = y / mu with y^T K y = 1: M may be singular.
 EnrichedModes lowest_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, Eigen::Index count) {
   const Eigen::VectorXd scale =
       (stiffness.diagonal().array() > 0).select(stiffness.diagonal().array().rsqrt(), 0).matrix();

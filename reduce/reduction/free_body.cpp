@@ -67,7 +67,7 @@ std::vector<FreeBodyLoad> all_loads(const std::vector<Interface>& interfaces, co
   return loads;
 }
 
-/// Amplitudes of the linear fields in the accelerations of the loads: (12, loads).
+/// Returns the amplitudes of the linear fields in the accelerations of the loads: (12, loads).
 Eigen::MatrixXd field_amplitudes(const std::vector<FreeBodyLoad>& loads) {
   Eigen::MatrixXd result(LinearFields::count, loads.size());
   for (std::size_t f = 0; f < loads.size(); ++f) {

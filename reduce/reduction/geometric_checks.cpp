@@ -13,8 +13,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Contribution of the coordinates of interfaces that release one rotation to the energy of rigid rotations, for each
-/// kept direction: -(d w^T + w d^T) / 2, w = m x d, see tie_second_order.hpp.
+/// Returns the contribution of the coordinates of interfaces that release one rotation to the energy of rigid
+/// rotations, for each kept direction: -(d w^T + w d^T) / 2, w = m x d, see tie_second_order.hpp.
 std::vector<Eigen::Matrix3d> released_rotations(const std::vector<Interface>& interfaces) {
   std::vector<Eigen::Matrix3d> result;
   for (const Interface& interface : interfaces) {
@@ -63,9 +63,9 @@ void add_turned_rows(const Interface& interface, const Eigen::MatrixXd& rotation
   }
 }
 
-/// The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps / 2, must not depend on which of
-/// two close frames describes the body: sym[K~ (W_a + N_a)] = 0 for all a, with W_a the rows above and N_a the rows
-/// (K_j U a)^T.
+/// Adds a check of objectivity. The elastic energy in linear coordinates eps, q = eps - g(eps),
+/// g_j = eps^T K_j eps / 2, must not depend on which of two close frames describes the body:
+/// sym[K~ (W_a + N_a)] = 0 for all a, with W_a the rows above and N_a the rows (K_j U a)^T.
 void add_objectivity_check(const Superelement& body, std::vector<Check>& checks) {
   const bool whole = std::all_of(body.interfaces.begin(), body.interfaces.end(), [](const Interface& interface) {
     const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);

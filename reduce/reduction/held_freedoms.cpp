@@ -35,7 +35,7 @@ std::string describe_motion(Eigen::Vector3d v, Eigen::Vector3d omega, const Eige
                      words(cleaned(through, length)));
 }
 
-/// Basis of the vectors x with A x = 0; the columns of A are of comparable size.
+/// Returns a basis of the vectors x with A x = 0; the columns of A are of comparable size.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   if (a.rows() == 0) {
     return Eigen::MatrixXd::Identity(a.cols(), a.cols());

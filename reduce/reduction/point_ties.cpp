@@ -31,7 +31,7 @@ TiedPoint tie_to_surface(const Solid& solid, const PointRequest& request) {
   return {request, node.position, on_points(solid.points(), surface.nodes, spread_unit_loads(surface, node))};
 }
 
-/// Points of the mesh outside the solid do not move with it and are not used.
+/// Ties a point to the mesh. Points of the mesh outside the solid do not move with it and are not used.
 TiedPoint tie_to_mesh(const Solid& solid, const PointRequest& request, const std::string& body) {
   const std::vector<int> inside = nodes_of_solid(solid);
   std::vector<int> nodes;

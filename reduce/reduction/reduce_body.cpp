@@ -31,7 +31,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index most_load_stiffnesses = 60;  // they grow with the cube of the directions
+constexpr Eigen::Index most_load_stiffnesses = 60;  // their memory grows with the cube of the number of directions
 
 /// K~ = T^T K T: Psi^T K Psi and omega^2. Psi^T K Phi = 0 and Psi^T K U = 0 hold by construction; the numerical errors
 /// are returned.
@@ -70,7 +70,7 @@ ReducedStiffness reduce_stiffness(const BodyMatrices& matrices, const Basis& bas
   return result;
 }
 
-/// (phi^T M U)^2, U rigid motions about the centre.
+/// Returns (phi^T M U)^2, U rigid motions about the centre.
 Eigen::MatrixXd effective_masses(const Superelement& body) {
   const Eigen::Index kept = body.interface_directions(), modes = body.modes();
   const Eigen::MatrixXd participation =

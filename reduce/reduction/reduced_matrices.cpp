@@ -14,7 +14,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// a_k^T b_l, where a_k consists of every `stride`-th row of a from row k on.
+/// Returns a_k^T b_l, where a_k consists of every `stride`-th row of a from row k on.
 Eigen::MatrixXd strided_product(const RowMatrix& a, int k, const RowMatrix& b, int l, int stride) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   if (result.size() > 0 && a.rows() > 0) {

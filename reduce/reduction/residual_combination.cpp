@@ -23,7 +23,7 @@ class CombinedFields {
     result_.of_answers = Eigen::MatrixXd(result_.of_answers * weights);
     result_.of_modes = Eigen::MatrixXd(result_.of_modes * weights);
   }
-  /// r = u - Phi Phi^T M u
+  /// Computes r = u - Phi Phi^T M u.
   void remove_modes() {
     if (modes_.cols() == 0) return;
     const Eigen::MatrixXd amplitudes = inner_products(modes_, body_.mass(result_.fields));
@@ -50,7 +50,7 @@ class CombinedFields {
   ResidualCombination result_;
 };
 
-/// Combinations of unit energy that are orthogonal in K; linearly dependent ones are left out.
+/// Returns combinations of unit energy that are orthogonal in K; linearly dependent ones are left out.
 Eigen::MatrixXd independent_fields(const Eigen::MatrixXd& energies) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(energies);
   const Eigen::Index rank = (pairs.values.array() > negligible_energy * pairs.values.maxCoeff()).count();

@@ -24,8 +24,8 @@ RowMatrix all_loads(const std::vector<ResidualRequest>& requests, Eigen::Index r
   return loads;
 }
 
-/// Reference energy of an answer, for the case that the conditions leave nothing of it but rounding: the load against
-/// the stiffest spring of the mesh.
+/// Returns the reference energy of an answer, for the case that the conditions leave nothing of it but rounding: the
+/// load against the stiffest spring of the mesh.
 Eigen::VectorXd least_energies(const BodyMatrices& matrices, const Eigen::MatrixXd& loads) {
   return loads.colwise().squaredNorm().transpose() / matrices.stiffness_diagonal().maxCoeff();
 }
@@ -69,8 +69,8 @@ SparseRows loads_of_point(const TiedPoint& point) {
   return loads;
 }
 
-/// Column 3 k + l: component k of the pattern acting along axis l. Components that are rounding errors of the others,
-/// such as those of a pressure on a plane, stay zero.
+/// Returns columns 3 k + l: component k of the pattern acting along axis l. Components that are rounding errors of the
+/// others, such as those of a pressure on a plane, stay zero.
 SparseRows loads_of_pattern(const Solid& solid, const LoadRequest& request) {
   const PatternForces pattern = pattern_forces(solid.mesh, request);
   std::vector<Eigen::Triplet<double>> entries;

@@ -24,7 +24,7 @@ class Surface {
 
   const std::vector<int>& rows() const { return rows_; }
 
-  /// P x for the surface's rows x of a field.
+  /// Returns P x for the surface's rows x of a field.
   Eigen::MatrixXd projected(const RowMatrix& field) const {
     const Eigen::MatrixXd x = field(rows_, Eigen::all);
     return x - product(conditions_, solve_symmetric(normal_, transposed_product(conditions_, x)));
@@ -45,7 +45,7 @@ RowMatrix projected(const std::vector<Surface>& surfaces, const RowMatrix& field
 
 Eigen::RowVectorXd dots(const RowMatrix& a, const RowMatrix& b) { return a.cwiseProduct(b).colwise().sum(); }
 
-/// a / b, or 0 if b is zero.
+/// Returns a / b, or 0 if b is zero.
 Eigen::RowVectorXd ratios(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b) {
   return (b.array() > 0).select(a.array() / b.array(), 0);
 }

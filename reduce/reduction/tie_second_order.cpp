@@ -14,7 +14,7 @@ namespace {
 
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& a) { return (a + a.transpose()) / 2; }
 
-/// w = J_A^-1 (M + a x F): the load on an average tie as a field of forces w x r on the surface.
+/// Returns w = J_A^-1 (M + a x F): the load on an average tie as a field of forces w x r on the surface.
 Eigen::Vector3d spread_moment(const TiedSurface& surface, const Interface& interface, const InterfaceLoad& load) {
   const Eigen::Vector3d arm = interface.position - surface.integrals.centroid;
   return polar_moment(surface.integrals).inverse() * (load.moment + arm.cross(load.force));
@@ -34,7 +34,7 @@ Eigen::MatrixXd rigid_rotation(const Ties& ties, int number, const Basis& basis)
   return result;
 }
 
-/// int u r^T dA of a surface, columns one below the other (9,n), u the displacement.
+/// Returns int u r^T dA of a surface, columns one below the other (9,n), u the displacement.
 Eigen::MatrixXd first_moments(const SurfaceIntegrals& surface, const Basis& basis) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(9, basis.shapes.cols());
   for (std::size_t k = 0; k < surface.nodes.size(); ++k) {
@@ -46,8 +46,8 @@ Eigen::MatrixXd first_moments(const SurfaceIntegrals& surface, const Basis& basi
   return result;
 }
 
-/// Term of the rotation of a surface whose mean a load follows. @param n  sum of F a^T, a from the centroid to each
-/// force @param w  see spread_moment
+/// Returns the term of the rotation of a surface whose mean a load follows. @param n  sum of F a^T, a from the centroid
+/// to each force @param w  see spread_moment
 Eigen::Matrix3d mean_rotation_term(const SurfaceIntegrals& surface, const Eigen::Matrix3d& n,
                                    const Eigen::Vector3d& w) {
   return n.trace() * Eigen::Matrix3d::Identity() - symmetric(n) + symmetric(skew(w) * surface.second_moment);

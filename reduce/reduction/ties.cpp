@@ -33,7 +33,7 @@ void add_column(Triplets& entries, int node, std::size_t column, const Eigen::Ve
 
 std::string place(const Eigen::Vector3d& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
 
-/// Displacement of a point at `x` for a unit motion in direction `axis` of the interface.
+/// Returns the displacement of a point at `x` for a unit motion in direction `axis` of the interface.
 Eigen::Vector3d carried(const Interface& interface, int axis, const Eigen::Vector3d& x) {
   const Eigen::Vector3d direction = interface.rotation.col(axis % 3);
   return axis < 3 ? direction : Eigen::Vector3d(skew(direction) * (x - interface.position));

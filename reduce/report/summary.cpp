@@ -15,7 +15,7 @@ namespace {
 constexpr Eigen::Index shown_modes = 40, shown_free = 12, shown_interfaces = 20;
 constexpr std::size_t shown_points = 20;
 
-/// Rounding errors relative to the largest component are shown as zero.
+/// Returns a place in words. Rounding errors relative to the largest component are shown as zero.
 std::string place(const Eigen::Vector3d& x) {
   const double least = 1e-12 * x.cwiseAbs().maxCoeff();
   const auto clean = [&](double value) { return std::abs(value) < least ? 0.0 : value; };

@@ -15,7 +15,7 @@ namespace bielle::reduce {
 namespace {
 
 constexpr Eigen::Index shown_frequencies = 6;
-constexpr double no_difference = 1e-5;  // less than what is left of neglected modes
+constexpr double no_difference = 1e-5;  // changes below this are smaller than the effect of neglected modes
 
 std::string points_in(const Superelement& piece) {
   std::vector<std::string> names;

@@ -102,7 +102,7 @@ void judge_modes(const Superelement& body, const Adequacy& found, Findings& find
   findings.changes.emplace_back(wider_modes(found, std::max(range.first_bad, found.wanted)));
 }
 
-/// Share of the modes in the held body's answer to its rotation about an axis of the body.
+/// Returns the share of the modes in the held body's answer to its rotation about an axis of the body.
 double answer_to_spin(const InertiaAnswer& answer, int axis) {
   // omega x (omega x x) = -(x minus its part along the axis)
   Eigen::VectorXd field = Eigen::VectorXd::Zero(12);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr Eigen::Index widest = 8;  // columns at a time: their sums stay in registers
 
-/// y = A x for `width` columns. @param x  rows `stride` apart @param y  rows next to each other, zero to begin with
+/// Computes y = A x for `width` columns. @param x  rows `stride` apart @param y  rows next to each other, zero to begin
+/// with
 template <int width>
 void add_product_of(const SymmetricMatrix& a, const double* x, Eigen::Index stride, double* y) {
   using Row = Eigen::Array<double, width, 1>;

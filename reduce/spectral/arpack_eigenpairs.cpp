@@ -136,9 +136,10 @@ Eigenpairs single_search(const ShiftInvertProblem& problem, int count, const Eig
   }
 }
 
-/// Up to rounding, a Krylov space of one start vector contains one vector of each eigenspace: a copy of a multiple
-/// eigenvalue (symmetric bodies) may be missed while others beyond it converge. A second search that excludes the found
-/// pairs reveals missed ones; a pair that is better than the worst found one replaces it.
+/// Adds copies that were missed. Up to rounding, a Krylov space of one start vector contains one vector of each
+/// eigenspace: a copy of a multiple eigenvalue (symmetric bodies) may be missed while others beyond it converge. A
+/// second search that excludes the found pairs reveals missed ones; a pair that is better than the worst found one
+/// replaces it.
 void add_missed_copies(const ShiftInvertProblem& problem, const EigenpairOptions& options, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
   constexpr int batch = 3, rounds = 10;

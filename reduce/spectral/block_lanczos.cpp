@@ -84,8 +84,8 @@ class BlockLanczos {
     return true;
   }
 
-  /// Size at which convergence is tested again, depending on the number of pairs that have converged since the last
-  /// test; dense eigenvalues of large bases are costly.
+  /// Returns the size at which convergence is tested again, depending on the number of pairs that have converged since
+  /// the last test; dense eigenvalues of large bases are costly.
   Index next_test(Index found) {
     const Index size = basis_.size(), grown = size - tested_size_, more = found - tested_found_;
     const Index most = size / 12;

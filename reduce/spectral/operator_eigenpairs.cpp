@@ -90,8 +90,9 @@ ComplexPairs dense_pairs(MatrixXd A, const char* balance) {
   return pairs;
 }
 
-/// Scaling can magnify rounding errors of a nilpotent part to the size of the others: the pairs are then no longer
-/// those of a matrix near by (R. James, J. Langou, B. R. Lowery, arXiv:1401.5766), and are computed without it.
+/// Computes all pairs. Scaling can magnify rounding errors of a nilpotent part to the size of the others: the pairs are
+/// then no longer those of a matrix near by (R. James, J. Langou, B. R. Lowery, arXiv:1401.5766), and are computed
+/// without it.
 ComplexPairs dense_pairs(const MatrixXd& A) {
   ComplexPairs pairs = dense_pairs(A, "B");
   constexpr double backward = 1e-12;
@@ -273,9 +274,9 @@ MatrixOf<Scalar> search(const LinearOperator<Scalar>& T, const MatrixOf<Scalar>&
   return iteration.vectors();
 }
 
-/// Up to rounding, a Krylov space of one start vector contains one vector of each eigenspace: copies of a multiple
-/// eigenvalue may be missed while others beyond it converge. A search that excludes the found subspace, which is
-/// invariant, finds the remaining eigenvalues.
+/// Adds eigenvalues that were missed. Up to rounding, a Krylov space of one start vector contains one vector of each
+/// eigenspace: copies of a multiple eigenvalue may be missed while others beyond it converge. A search that excludes
+/// the found subspace, which is invariant, finds the remaining eigenvalues.
 template <class Scalar>
 void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEigenOptions& options,
                 Subspace<Scalar>& found) {

@@ -22,7 +22,7 @@ Index kept_directions(const Interface& interface) {
   return std::count(interface.kept.begin(), interface.kept.end(), true);
 }
 
-/// First coordinate of each interface, by name.
+/// Returns the first coordinate of each interface, by name.
 std::map<std::string, Index> first_coordinates(const std::vector<Interface>& interfaces) {
   std::map<std::string, Index> result;
   Index next = 0;
@@ -33,8 +33,8 @@ std::map<std::string, Index> first_coordinates(const std::vector<Interface>& int
   return result;
 }
 
-/// Coordinate of the whole body for each coordinate of the piece. @param modes  first coordinate of its modes in the
-/// whole
+/// Returns the coordinate of the whole body for each coordinate of the piece. @param modes  first coordinate of its
+/// modes in the whole
 std::vector<Index> coordinates_of(const Superelement& piece, const std::map<std::string, Index>& first, Index modes) {
   std::vector<Index> result;
   for (const Interface& interface : piece.interfaces)

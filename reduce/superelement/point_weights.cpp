@@ -25,7 +25,7 @@ constexpr double closeness = 1e-2;
 /// Nodes lie in a plane if their extent across it is less than this share of that along it.
 constexpr double flatness = 1e-6;
 
-/// a~, with a~ b = a x b.
+/// Returns a~, with a~ b = a x b.
 Matrix3d cross_matrix(const Vector3d& a) {
   Matrix3d s;
   s << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
@@ -44,8 +44,8 @@ std::vector<Index> nodes_around(const Matrix3Xd& points, const Vector3d& point) 
   return nodes;
 }
 
-/// Displacement and gradient rows of the nearest linear field: u(x) = c_0 + c_j (x_j - point_j), weights of the nodes
-/// (4,k).
+/// Returns displacement and gradient rows of the nearest linear field: u(x) = c_0 + c_j (x_j - point_j), weights of the
+/// nodes (4,k).
 Matrix4Xd linear_weights(const Matrix3Xd& arms, const VectorXd& weight) {
   Matrix4Xd rows(4, arms.cols());
   rows.row(0).setOnes();
@@ -77,7 +77,7 @@ void set_rows_of_linear_field(const Matrix3Xd& arms, const VectorXd& weight, dou
   }
 }
 
-/// Rows of the nearest rigid motion: u = c + theta x arm.
+/// Returns the rows of the nearest rigid motion: u = c + theta x arm.
 Eigen::MatrixXd rows_of_rigid_motion(const Matrix3Xd& arms, const VectorXd& weight) {
   Matrix6 normal = Matrix6::Zero();
   Eigen::MatrixXd right(6, 3 * arms.cols());

@@ -21,7 +21,8 @@ struct Fault {
   std::string message;
 };
 
-/// The message is formatted only when it is needed: some conditions are checked for each entry of a matrix.
+/// Throws if a condition is not satisfied. The message is formatted only then, because some conditions are checked for
+/// each entry of a matrix.
 template <class... Values>
 void require(bool condition, const std::string& dataset, fmt::format_string<const Values&...> message,
              const Values&... values) {
@@ -35,8 +36,8 @@ void check_matrix(const Matrix& matrix, Index rows, Index columns, const std::st
   require(matrix.allFinite(), dataset, "holds numbers that are not finite");
 }
 
-/// |a_ij - a_ji| <= 1e-8 sqrt(|a_ii a_jj|): a bound that does not depend on the units of the coordinates. The reduction
-/// writes symmetric matrices; those in files of other programs may differ by rounding.
+/// Checks that |a_ij - a_ji| <= 1e-8 sqrt(|a_ii a_jj|): a bound that does not depend on the units of the coordinates.
+/// The reduction writes symmetric matrices; those in files of other programs may differ by rounding.
 void check_symmetric(const Eigen::MatrixXd& matrix, const std::string& dataset) {
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < i; ++j)

@@ -146,7 +146,7 @@ void read_mesh(const Hdf5File& file, const Reader& reader, SuperelementMesh& mes
     mesh.groups[name_of_link(link)] = reader.nodes("/mesh/groups/" + link);
 }
 
-/// These data are optional: older files and files of other programs have none.
+/// Reads data that are optional: older files and files of other programs have none.
 void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin& origin) {
   if (!file.has("/recovery/materials")) return;
   const std::vector<std::string> names = file.read_names("/recovery/materials");
@@ -158,7 +158,7 @@ void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin
     origin.groups[name_of_link(link)] = reader.nodes("/recovery/stress_groups/" + link);
 }
 
-/// Files of other programs have no checksum.
+/// Checks the checksum, which files of other programs do not have.
 void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& body) {
   if (!file.has_attribute("/", "checksum")) return;
   std::optional<std::int64_t> sum;

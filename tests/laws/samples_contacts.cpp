@@ -13,7 +13,7 @@ const std::string contact_law =
     "stiffness: 3, damping: 0.1, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
     "viscous: 0.1}";
 
-/// Two nodes turned against each other, 1.4 m apart along z.
+/// Returns two nodes turned against each other, 1.4 m apart along z.
 Sample touching(const std::string& variant, const std::string& shapes, std::vector<BadValue> bad,
                 const std::string& law = contact_law) {
   Sample sample{Section::joints, "contact", variant,
@@ -186,7 +186,7 @@ std::vector<Sample> contact_samples() {
                "shapes: [{node: a, box: [3, 1.6, 1.6], rounding: 0.7, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, {node: "
                "b, box: [1.6, 3, 1.6], rounding: 0.7, axes: {x: [1, 0, 1], y: [0, 1, 0]}}]",
                {}));
-  // The damping follows from the speed at which they touch; before they touch there is none.
+  // The damping follows from the speed at which the shapes touch; there is none before that.
   list.push_back(
       touching("restitution, groups",
                "between: [[{node: a, sphere: 0.9}, {node: a, sphere: 1, at: [1, 0, 0]}], [{node: b, sphere: 1}, "

@@ -8,7 +8,7 @@ namespace {
 
 using mechanism::Section;
 
-/// Joints of a moving carrier with three others.
+/// Returns joints of a moving carrier with three others.
 Sample coupling(const std::string& type, const std::string& variant, const std::string& keys,
                 std::vector<BadValue> bad) {
   Sample sample{Section::joints, type, variant,
@@ -48,14 +48,14 @@ Sample mesh(const std::string& variant, const std::string& keys, std::vector<Bad
   return sample;
 }
 
-/// The same with teeth whose errors and stiffness vary within a part of a radian.
+/// Returns the same with teeth whose errors and stiffness vary within a part of a radian.
 Sample wavy(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   Sample sample = mesh(variant, keys, std::move(bad));
   sample.scales.smooth_within = 0.1;
   return sample;
 }
 
-/// A rope over three nodes.
+/// Returns a rope over three nodes.
 Sample rope(const std::string& type, const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   return {Section::joints, type, variant,
           "nodes:\n"

@@ -6,7 +6,7 @@ namespace {
 
 using mechanism::Section;
 
-/// Two nodes turned against each other, a joint whose axes are those of neither, and a drive.
+/// Returns two nodes turned against each other, a joint whose axes are those of neither, and a drive.
 std::string driven(const std::string& joint_type, const std::string& drive) {
   return R"yaml(
 nodes:
@@ -25,7 +25,7 @@ Sample drive(const std::string& joint_type, const std::string& law, const std::s
           driven(joint_type, "joint: axle, " + law + ": \"" + value + "\""), std::move(bad)};
 }
 
-/// A drive with keys beyond its law. @param keys  all but the joint
+/// Returns a drive with keys beyond its law. @param keys  all but the joint
 Sample with_keys(const std::string& joint_type, const std::string& variant, const std::string& keys,
                  std::vector<BadValue> bad) {
   bad.push_back({"joint", "axis", "no 'axis'"});

@@ -192,7 +192,7 @@ elements:
            {"arc_centre", "[0, 0, 0.1]", "not at one distance"}}};
 }
 
-/// Inclined principal axes, a shear centre of its own, taper.
+/// Returns a sample with inclined principal axes, a shear centre of its own, and taper.
 Sample tapered_shape() {
   return {Section::elements,
           "beam",
@@ -213,7 +213,7 @@ elements:
            {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[2, 0]]}", "outside of the section"}}};
 }
 
-/// Every other kind of section, with all of its keys.
+/// Returns every other kind of section, with all of its keys.
 Sample beam_of(const std::string& variant, const std::string& section, std::vector<BadValue> bad) {
   bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}});
   return {Section::elements, "beam", variant,
@@ -262,7 +262,7 @@ elements:
   return sample;
 }
 
-/// Aerodynamic forces on a curved and twisted beam.
+/// Returns a sample of aerodynamic forces on a curved and twisted beam.
 Sample airfoil(bool pitch_rate) {
   Sample sample{Section::elements,
                 "beam",
@@ -286,7 +286,7 @@ elements:
   return sample;
 }
 
-/// Coefficients of stations along the beam, in place of those of one airfoil.
+/// Returns a sample with coefficients of stations along the beam, in place of those of one airfoil.
 Sample airfoil_with_polars() {
   Sample sample = airfoil(true);
   sample.variant = "airfoil with polars";
@@ -400,8 +400,8 @@ elements:
            {"force", "boom.element_2.force.x", "did you mean 'element_1.force.x'"}}};
 }
 
-/// Stresses of a beam of two elements: a spring between its ends uses them. Squares of von Mises stresses are smooth at
-/// zero.
+/// Returns the stresses of a beam of two elements: a spring between its ends uses them. Squares of von Mises stresses
+/// are smooth at zero.
 Sample spring_of_beam_stresses() {
   Sample sample{Section::elements,
                 "spring_damper",
@@ -418,7 +418,7 @@ elements:
   return sample;
 }
 
-/// A bent body with three interfaces, load patterns, damping and prestress; nodes stand as meshed. Small local
+/// Returns a bent body with three interfaces, load patterns, damping and prestress; nodes stand as meshed. Small local
 /// displacements are its premise.
 Sample superelement(const std::string& loads) {
   Sample sample{Section::elements,

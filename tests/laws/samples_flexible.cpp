@@ -327,7 +327,7 @@ std::vector<Sample> clearances() {
                 {{"radius", "", "which is missing"}})};
 }
 
-/// Measures of flexible joints and stops: a spring between the nodes uses them.
+/// Returns the measures of flexible joints and stops: a spring between the nodes uses them.
 Sample measured(const std::string& variant, const std::string& joint, const std::string& force, BadValue bad) {
   Sample sample{Section::elements,
                 "spring_damper",
@@ -367,7 +367,7 @@ std::vector<Sample> measures_of_joints() {
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-/// A 12x12 matrix whose null space are the rigid motions of nodes `way` apart, from a 6x6 matrix.
+/// Returns a 12x12 matrix whose null space are the rigid motions of nodes `way` apart, from a 6x6 matrix.
 Matrix12 between(const mechanism::Matrix6& K, const mechanism::Vector3& way) {
   Eigen::Matrix<double, 6, 12> P = Eigen::Matrix<double, 6, 12>::Zero();
   P.leftCols<6>() = -mechanism::Matrix6::Identity();

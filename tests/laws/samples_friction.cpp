@@ -8,7 +8,7 @@ namespace {
 
 using mechanism::Section;
 
-/// A joint with friction. Quantities are of order one: low speeds of surfaces, large radii, soft bristles.
+/// Returns a joint with friction. Quantities are of order one: low speeds of surfaces, large radii, soft bristles.
 Sample rubbing(const std::string& type, const std::string& variant, const std::string& keys,
                const std::string& friction, std::vector<BadValue> bad) {
   const char* const second_axis = type == "universal" ? ", second_axis: [3, 0, -1]" : "";
@@ -28,7 +28,7 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
   return sample;
 }
 
-/// A point that rubs along a curve.
+/// Returns a point that rubs along a curve.
 Sample rubbing_point(const std::string& variant, bool closed, const std::string& friction, std::vector<BadValue> bad) {
   bad.push_back({"friction.radius", "1", "does not turn"});
   bad.push_back({"nodes", "[a, a]", "two different nodes"});
@@ -52,7 +52,7 @@ Sample rubbing_point(const std::string& variant, bool closed, const std::string&
   return sample;
 }
 
-/// A slider that rubs on a beam.
+/// Returns a slider that rubs on a beam.
 Sample rubbing_slider(const std::string& variant, const std::string& orientation, const std::string& friction,
                       std::vector<BadValue> bad) {
   bad.push_back({"node", "a", "slide on itself"});

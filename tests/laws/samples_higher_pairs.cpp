@@ -9,7 +9,7 @@ namespace {
 
 using mechanism::Section;
 
-/// Two nodes turned against each other; the joint's axes are those of neither.
+/// Returns two nodes turned against each other; the joint's axes are those of neither.
 Sample higher_pair(const std::string& type, const std::string& keys, std::vector<BadValue> bad) {
   bad.push_back({"nodes", "[a, a]", "two different nodes"});
   bad.push_back({"nodes", "[a, c]", "no node 'c'"});

@@ -14,7 +14,7 @@ const std::string soft =
     "  ambient_pressure: 0\n"
     "  fluid: {bulk_modulus: 1e5, density: 1e4, viscosity: 30, air_fraction: 0.1, air_exponent: 1.3}\n";
 
-/// Two nodes far enough apart for a cylinder, a hinge between them, and places of the circuit.
+/// Returns two nodes far enough apart for a cylinder, a hinge between them, and places of the circuit.
 std::string circuit(const std::string& text, const std::string& fluid = soft) {
   return R"yaml(
 nodes:
@@ -62,7 +62,7 @@ Sample following(Sample sample) {
   return sample;
 }
 
-/// A line whose formula reads another one, which has a formula itself.
+/// Returns a line whose formula reads another one, which has a formula itself.
 Sample reader(const std::string& type, const std::string& variant, const std::string& it, const std::string& other,
               std::vector<BadValue> bad) {
   bad.push_back({"from", "other", "no place of the hydraulics"});

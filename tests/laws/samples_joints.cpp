@@ -6,7 +6,7 @@ namespace {
 
 using mechanism::Section;
 
-/// Two nodes turned against each other; the joint's axes are those of neither.
+/// Returns two nodes turned against each other; the joint's axes are those of neither.
 std::string pair(const std::string& joint, const std::string& more = "") {
   return R"yaml(
 nodes:
@@ -39,7 +39,8 @@ Sample with_actions(const std::string& type, const std::string& variant, const s
           std::move(bad)};
 }
 
-/// Values of springs that this model makes wrong; for a joint with several coordinates those of `coordinate`.
+/// Returns the values of springs that this model makes wrong; for a joint with several coordinates those of
+/// `coordinate`.
 std::vector<BadValue> bad_actions(const std::string& coordinate = "") {
   const std::string of = coordinate.empty() ? "" : "." + coordinate;
   std::vector<BadValue> bad = {{"rest" + of, "much", ""}, {"preload" + of, "'5*x'", "x"}};

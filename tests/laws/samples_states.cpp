@@ -6,7 +6,7 @@ namespace {
 
 using mechanism::Section;
 
-/// A hinge between two nodes turned against each other, and states.
+/// Returns a hinge between two nodes turned against each other, and states.
 std::string states(const std::string& text) {
   return R"yaml(
 nodes:
@@ -32,7 +32,7 @@ Sample rate() {
            {"units", "[rad, m]", "one for each output"}}};
 }
 
-/// Measures of a gear mesh.
+/// Returns the measures of a gear mesh.
 Sample gear_measures(const std::string& variant, const std::string& mesh, const std::string& more) {
   Sample sample{
       Section::states,

@@ -29,10 +29,11 @@ struct Subject {
   Scales scales;
   bool carried_axes;  ///< kind of axes of its constraint rows, see Slots
 
-  /// SI value of one unit of each unknown (or of its rate).
+  /// Returns the SI value of one unit of each unknown (or of its rate).
   VectorX position_units() const;
   VectorX rate_units() const;
-  /// Random states: everything moved by `size` times the scales; with size = 1 also the whole model somewhere in space.
+  /// Returns a random state: everything is moved by `size` times the scales. With size = 1 the whole model is also
+  /// placed somewhere in space.
   State random_state(double size, unsigned seed) const;
 };
 
@@ -45,7 +46,8 @@ struct NamedState {
 };
 std::vector<NamedState> law_states(const Subject& subject);
 
-/// The state seen after a rotation Q and a translation of the whole model (the environment's gravity is the caller's).
+/// Returns the state as seen after a rotation Q and a translation of the whole model (the environment's gravity is the
+/// caller's).
 State moved_rigidly(const State& state, const mechanism::Matrix3& Q, const mechanism::Vector3& translation);
 
 std::string title(const Sample& sample);  ///< "beam (arc, coupled section)"

@@ -59,8 +59,8 @@ TEST_CASE("closed contacts have the tangents of their forces, and keep or dissip
               [&](double s) { return dense.energy(dense.along_motion(state, s)).elastic; }, reach);
           const double power = r.dot(v);
           CHECK_THAT(power, Catch::WithinAbs(stored + dense.energy(state).dissipation, 1e-8 * (1 + std::abs(power))));
-          // A flank that its memory closes may be apart in a random state: its damper then gives back what a spring
-          // cannot.
+          // A flank that is closed by its memory may be apart in a random state. Its damper then returns energy, which
+          // a spring cannot do.
           if (contact.event == "one-way") CHECK(dense.energy(state).dissipation >= 0);
         }
       }

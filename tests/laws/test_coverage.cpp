@@ -13,7 +13,7 @@ using bielle::mechanism::ComponentType;
 
 namespace {
 
-/// Types of the component table and of circuits.
+/// Returns the types of the component table and of circuits.
 std::vector<std::pair<bielle::mechanism::Section, std::string>> all_types() {
   std::vector<std::pair<bielle::mechanism::Section, std::string>> types;
   for (const ComponentType& type : component_table()) types.emplace_back(type.section, type.name);

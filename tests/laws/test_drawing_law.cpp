@@ -12,7 +12,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// Types without a geometry of their own: they act in joints or hydraulic circuits, or are equations.
+/// Returns whether a type has no geometry of its own: such types act in joints or hydraulic circuits, or are equations.
 bool is_unseen(const Sample& sample) {
   constexpr std::array unseen = {"gear", "differential"};
   return sample.section == Section::drives || sample.section == Section::states ||

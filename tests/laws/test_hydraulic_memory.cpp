@@ -13,7 +13,7 @@ using namespace bielle::laws;
 
 namespace {
 
-/// Memory by type: of a valve [begun, command, locked, opening, speed], of an accumulator its side.
+/// Returns the memory by type: of a valve [begun, command, locked, opening, speed], of an accumulator its side.
 const std::map<std::string, std::vector<std::vector<double>>>& memories() {
   static const std::vector<std::vector<double>> of_valves = {{1, 1, 1, 0.4, 0.2}, {1, -1, 0, 0.4, 0.2}};
   static const std::map<std::string, std::vector<std::vector<double>>> all = {

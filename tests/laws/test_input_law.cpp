@@ -37,7 +37,7 @@ std::string without_indices(const std::string& path) {
   return key;
 }
 
-/// The path of the map that holds `it`: "joints", "hydraulics.lines".
+/// Returns the path of the map that holds `it`: "joints", "hydraulics.lines".
 std::string place_of(const Sample& sample) {
   return sample.place.empty() ? bielle::mechanism::section_name(sample.section) : sample.place;
 }
@@ -101,14 +101,14 @@ struct Value {
   }
 };
 
-/// The entry `it` of a model.
+/// Returns the entry `it` of a model.
 Value& entry_in(Value& root, const Sample& sample) {
   Value* value = &root;
   for (const std::string& part : split(place_of(sample))) value = &value->at(part);
   return value->at("it");
 }
 
-/// The sample's model with one value of `it` changed; an empty value leaves the key out.
+/// Returns the sample's model with one value of `it` changed; an empty value leaves the key out.
 std::string changed(const Sample& sample, const std::string& key, const std::string& value) {
   Value root(sample.model);
   Value* entry = &entry_in(root, sample);
@@ -145,7 +145,7 @@ std::vector<std::string> maps_of(const Sample& sample) {
   return maps;
 }
 
-/// The forms of `it`, from the tables of keys of a mechanism file.
+/// Returns the forms of `it`, from the tables of keys of a mechanism file.
 bielle::KeyForms forms_of(const Sample& sample) {
   const bielle::KeyTable* table = &bielle::mechanism::mechanism_file_keys();
   const bielle::KeyForms* forms = nullptr;
@@ -156,7 +156,7 @@ bielle::KeyForms forms_of(const Sample& sample) {
   return form_of(*forms, bielle::KeyForm::Kind::entries)->items.front();
 }
 
-/// The node of `it` in a tree.
+/// Returns the node of `it` in a tree.
 std::shared_ptr<const bielle::YamlNode> entry_in(const bielle::YamlNode& root, const Sample& sample) {
   const bielle::YamlNode* map = &root;
   std::shared_ptr<const bielle::YamlNode> found;

@@ -15,7 +15,7 @@ namespace {
 /// Rotations, translations and sums of products of order one: some hundred roundings of the largest term.
 constexpr double rounding = 1e-13;
 
-/// Size of the terms of a residual: of a row's entries at unit motions.
+/// Returns the size of the terms of a residual: of a row's entries at unit motions.
 double size_of(const Subject& subject, const State& state) {
   const auto& dense = *subject.dense;
   const double K =

@@ -12,7 +12,7 @@ namespace {
 
 using Mover = void (DenseModel::*)(State&, const VectorX&) const;
 
-/// Derivatives of the residual along the unknowns that `move` changes, times their units.
+/// Returns the derivatives of the residual along the unknowns that `move` changes, times their units.
 MatrixX difference(const DenseModel& dense, const State& state, Mover move, const VectorX& units, double step) {
   MatrixX D = MatrixX::Zero(dense.size(), dense.size());
   for (int j = 0; j < dense.size(); ++j) {
@@ -28,8 +28,8 @@ MatrixX difference(const DenseModel& dense, const State& state, Mover move, cons
   return D;
 }
 
-/// The size of each row's terms: the largest entry of the rows of its kind (forces, moments, amplitudes, ...), and the
-/// residual's, whose rounding the differences feel.
+/// Returns the size of each row's terms: the largest entry of the rows of its kind (forces, moments, amplitudes, ...),
+/// and the residual's, whose rounding the differences feel.
 VectorX row_sizes(const DenseModel& dense, const MatrixX& A, const VectorX& r) {
   const VectorX entries = A.cwiseAbs().rowwise().maxCoeff() + r.cwiseAbs();
   VectorX sizes = entries;

@@ -13,7 +13,7 @@ namespace bielle::laws {
 /// Names, texts and formulas are not judged.
 bool is_allowed(const KeyForms& forms, const YamlNode& value);
 
-/// The keys that a sample shows, at any depth, with what its tables say of each.
+/// A key that occurs in a sample, at any depth, with the contents of its table.
 struct ShownKey {
   std::string path;  ///< "section.young", "solid.0.box": items of lists are counted from 0
   const Key* key = nullptr;

@@ -46,7 +46,7 @@ class EulerPoinsot {
   Vector3 centre() const { return R_ * Vector3(0, 1, 0); }
   const Vector3& Omega() const { return Omega_; }
   Vector3 velocity() const { return R_ * Omega_.cross(Vector3(0, 1, 0)); }
-  /// Force of the pivot on the body.
+  /// Returns the force of the pivot on the body.
   Vector3 force() const {
     const Vector3 arm(0, 1, 0);
     const Vector3 a = R_ * (acceleration(R_, Omega_).cross(arm) + Omega_.cross(Omega_.cross(arm)));

@@ -1,5 +1,5 @@
-// Generalised-alpha of index 3 on a mass that a hinge leads in a circle, written down apart from the program: in the
-// plane, where the group is commutative. Linearised about steady rotation it tells how errors grow from step to step.
+// Generalised-alpha of index 3 for a mass that is guided by a hinge, implemented independently of the program in the
+// plane, where the group is commutative. Linearised about steady rotation, it shows how errors grow from step to step.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ class RotatingMass {
   RotatingMass(const mechanism::Scheme& scheme, double inertia, double h, bool corrected)
       : scheme_(scheme), inverse_mass_(1, 1, 1 / inertia), h_(h), corrected_(corrected) {}
 
-  /// Largest eigenvalue of a step's linearisation in axes that turn with the mass, except the two eigenvalues 1, which
-  /// belong to another phase and another speed.
+  /// Returns the largest eigenvalue of a step's linearisation in axes that turn with the mass, except the two
+  /// eigenvalues 1, which belong to another phase and another speed.
   double spectral_radius() const {
     const Matrix D = derivative(steady());
     Eigen::VectorXcd roots = Matrix(D).eigenvalues();
@@ -80,7 +80,8 @@ class RotatingMass {
     return result;
   }
 
-  /// A state at angle 0 that a step only turns. Newton's method; the angle per step stands in place of the angle.
+  /// Returns a state at angle 0 that a step only turns, by Newton's method. The angle per step takes the place of the
+  /// angle.
   Vector steady() const {
     Vector y;
     y << 1, 0, h_, 0, 1, 1, -1, 0, 0, -1, 0, 0;

@@ -31,7 +31,7 @@ inline std::vector<mechanism::VectorX> values_by_kind(const mechanism::State& st
   return {position, velocity, state.multiplier, state.first_order};
 }
 
-/// A run of 2 `span` in steps of h, and from the middle on of `factor` h.
+/// Returns a run of 2 `span` in steps of h, and from the middle on of `factor` h.
 inline Track track(const ReadyModel& model, const mechanism::Scheme& scheme, mechanism::ConstraintForm form, double h,
                    double span, double factor) {
   mechanism::TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0), form);
@@ -49,7 +49,8 @@ inline Track track(const ReadyModel& model, const mechanism::Scheme& scheme, mec
   return track;
 }
 
-/// Largest difference of two runs over the steps of the coarser one, by kind. The other has twice its steps.
+/// Returns the largest difference of two runs over the steps of the coarser one, by kind. The other has twice its
+/// steps.
 inline std::vector<double> largest_differences(const Track& coarse, const Track& fine) {
   REQUIRE(fine.size() == 2 * coarse.size() - 1);
   std::vector<double> largest(track_kinds.size(), 0.0);

@@ -52,7 +52,7 @@ class Reference {
   Vector3 x() const { return arm * radial(z_); }
   Vector3 v() const { return arm * z_[1] * tangential(z_); }
   double y() const { return elongation(z_); }
-  /// Force of the pivot on the body.
+  /// Returns the force of the pivot on the body.
   Vector3 force() const {
     const Vector3 a = arm * (rate(z_)[1] * tangential(z_) - z_[1] * z_[1] * radial(z_));
     return mass * a + Vector3(0, mass * gravity, 0) + law.force(y()) * line(z_).normalized();
@@ -76,7 +76,7 @@ struct Errors {
   double x = 0, v = 0, lambda = 0, y = 0;
 };
 
-/// Largest errors over all steps of 0.5 s, of h, and of `factor` h after the first 0.2 s.
+/// Returns the largest errors over all steps of 0.5 s, of h, and of `factor` h after the first 0.2 s.
 Errors largest_errors(const Scheme& scheme, ConstraintForm form, double h, double factor) {
   const Pendulum model(false);
   TimeIntegration integration(*model.system, model.file.model.environment, scheme, model.system->start(0), form);

@@ -140,7 +140,7 @@ TEST_CASE("an event at any phase relative to the grid changes reactions by the e
             for (std::size_t k = 0; k < with.size(); ++k) worst = std::max(worst, std::abs(with[k] - without[k]));
             INFO(sample.name << ", h = " << h << ", " << action << " at " << side * away << " h: " << worst
                              << ", error of steps " << error);
-            // A new start has errors of its own, of the same order.
+            // A restart causes errors of its own, which are of the same order.
             CHECK(worst <= (std::string(action) == "note" ? 0 : 2 * error));
             by_restarts.back() = std::max(by_restarts.back(), worst);
           }

@@ -19,8 +19,8 @@ const Scheme schemes[] = {Scheme::generalized_alpha(0),
                           Scheme::hht(0.3),
                           Scheme::newmark()};
 
-/// 1 and 2 kg in a row on springs of 1 N/m: natural frequencies 0.54 and 1.31 rad/s. @param nodes,elements  more of
-/// them
+/// Returns masses of 1 and 2 kg in a row on springs of 1 N/m: natural frequencies 0.54 and 1.31 rad/s.
+/// @param nodes,elements  more of them
 ReadyModel oscillators(const std::string& nodes = "", const std::string& elements = "") {
   return ReadyModel(fmt::format(R"yaml(
 nodes:

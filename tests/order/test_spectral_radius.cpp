@@ -12,8 +12,9 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// An oscillator of 1 kg with omega = 1/s, without start correction of A, so that the parasitic root takes part. The
-/// state of the recurrence is (q_n, h v_n, q_{n+1}), or (q_n, h v_n) if A_n = a_n: consecutive states give its matrix.
+/// Returns an oscillator of 1 kg with omega = 1/s, without start correction of A, so that the parasitic root takes
+/// part. The state of the recurrence is (q_n, h v_n, q_{n+1}), or (q_n, h v_n) if A_n = a_n: consecutive states give
+/// its matrix.
 double oscillator_radius(const Scheme& scheme, double omega_h) {
   const ReadyModel model(R"yaml(
 nodes: {m: {position: [0.2, 0, 0], velocity: ["0.1/h", 0, 0], fixed: [y, z, rx, ry, rz]}}
@@ -41,8 +42,8 @@ parameters: {h: )yaml" + std::to_string(omega_h) +
   return bielle::test::eigenvalues(after * bielle::regular_inverse(before).value()).cwiseAbs().maxCoeff();
 }
 
-/// Errors of the multiplier of a mass that is driven along x = t^3/6, exact force m t: started without correction, they
-/// show the scheme's response to a disturbance along a constraint.
+/// Returns the errors of the multiplier of a mass that is driven along x = t^3/6, exact force m t: started without
+/// correction, they show the scheme's response to a disturbance along a constraint.
 std::vector<double> driven_errors(const Scheme& scheme, int steps) {
   const ReadyModel model(R"yaml(
 nodes: {m: {position: [0, 0, 0]}}

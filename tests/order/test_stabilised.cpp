@@ -16,7 +16,7 @@ struct Errors : bielle::test::TopErrors {
   double rate = 0;  ///< largest velocity of the pivot's point
 };
 
-/// Largest errors of the heavy top over [0, end].
+/// Returns the largest errors of the heavy top over [0, end].
 Errors top_errors(double h, double end) {
   const ReadyModel model(bielle::test::heavy_top);
   EulerPoinsot reference;

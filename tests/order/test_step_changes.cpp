@@ -12,7 +12,7 @@ using bielle::test::TopErrors;
 
 namespace {
 
-/// Largest errors in the 0.1 s after the step changed from h to `factor` h at t = 0.1 s.
+/// Returns the largest errors in the 0.1 s after the step changed from h to `factor` h at t = 0.1 s.
 TopErrors errors_after_change(double h, double factor, double rho, ConstraintForm form) {
   const ReadyModel model(bielle::test::heavy_top);
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(rho), model.system.start(0),

@@ -58,7 +58,7 @@ Ran run(const std::string& text, const DynamicsOptions& options) {
   return ran;
 }
 
-/// Least-squares slope of log(error) over log(h).
+/// Returns the least-squares slope of log(error) over log(h).
 double slope(const std::vector<double>& h, const std::vector<double>& error) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const auto n = static_cast<double>(h.size());

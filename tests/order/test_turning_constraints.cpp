@@ -16,7 +16,7 @@ using bielle::test::TopErrors;
 
 namespace {
 
-/// 1 kg at 1 m from a hinge, turning by 1 rad/s without gravity.
+/// Returns a mass of 1 kg at 1 m from a hinge, turning by 1 rad/s without gravity.
 ReadyModel rotor(double inertia) {
   return ReadyModel(fmt::format(R"yaml(
 nodes: {{m: {{position: [1, 0, 0], velocity: [0, 1, 0], angular_velocity: [0, 0, 1]}}}}
@@ -26,7 +26,7 @@ joints: {{pivot: {{type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [
                                 inertia));
 }
 
-/// |lambda| of every step; it should be m L omega^2 = 1 N.
+/// Returns |lambda| of every step; it should be m L omega^2 = 1 N.
 std::vector<double> pull(const ReadyModel& model, const Scheme& scheme, ConstraintForm form, double h, int steps) {
   std::vector<double> result;
   integrate(
@@ -34,7 +34,7 @@ std::vector<double> pull(const ReadyModel& model, const Scheme& scheme, Constrai
   return result;
 }
 
-/// Largest part of a signal that alternates from step to step, in a window of steps.
+/// Returns the largest part of a signal that alternates from step to step, in a window of steps.
 double alternation(const std::vector<double>& signal, std::size_t from, std::size_t count) {
   double largest = 0;
   for (std::size_t k = from; k < from + count; ++k)

@@ -16,7 +16,7 @@ elements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1e-9, 1e-9, 1e-9]}}
 joints: {pin: {type: spherical, nodes: [ground, m], position: [0, 0, 0]}}
 )yaml";
 
-/// Largest relative error of the multiplier in each revolution.
+/// Returns the largest relative error of the multiplier in each revolution.
 std::vector<double> errors_by_revolution(const Scheme& scheme, double h, int revolutions,
                                          ConstraintForm form = ConstraintForm::position) {
   const double pi = std::acos(-1.0), exact = 4 * pi * pi;

@@ -12,7 +12,7 @@
 
 namespace bielle::performance {
 
-/// Elapsed time.
+/// Returns the elapsed time.
 template <class Work>
 double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -20,7 +20,7 @@ double seconds_of(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The fastest of four.
+/// Returns the shortest elapsed time of four runs.
 template <class Work>
 double best_seconds_of(const Work& work) {
   double best = 1e300;

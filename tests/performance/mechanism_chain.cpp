@@ -114,7 +114,7 @@ constexpr Tangent policies[] = {Tangent::renewed, Tangent::reused, Tangent::auto
 constexpr const char* policy_names[] = {"renewed", "reused", "automatic"};
 using Runs = std::array<Run, std::size(policies)>;
 
-/// The fastest of several runs with each policy, in turns: other work on the machine lengthens some of them.
+/// Returns the fastest of several runs with each policy, in turns: other work on the machine lengthens some of them.
 Runs fastest(const MechanismFile& file, const System& system, const std::string& results_path) {
   Runs best;
   for (int round = 0; round < 5; ++round)
@@ -126,7 +126,7 @@ Runs fastest(const MechanismFile& file, const System& system, const std::string&
   return best;
 }
 
-/// Processor time of one call [s]: the fastest of several rounds.
+/// Returns the processor time of one call [s]: the fastest of several rounds.
 double time_of(const std::function<void()>& call) {
   call();
   double best = 1e9;

@@ -52,7 +52,7 @@ struct Samples {
   std::string failure;
 };
 
-/// A run recorded at multiples of `every` steps.
+/// Returns a run recorded at multiples of `every` steps.
 Samples run(const MechanismFile& file, const System& system, const Scheme& scheme, ConstraintForm form, double h,
             double duration, long every) {
   Samples samples;

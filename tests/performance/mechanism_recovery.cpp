@@ -47,7 +47,7 @@ Superelement body_of(int nodes, int coordinates) {
   return body;
 }
 
-/// Bandwidth of a copy, bytes read and written [B/s].
+/// Returns the bandwidth of a copy, bytes read and written [B/s].
 double bandwidth(std::size_t numbers) {
   std::vector<double> from(numbers, 1.0), to(numbers, 0.0);
   const double time = fastest([&] {

@@ -111,7 +111,7 @@ void keep_fastest(const Run& run, Run& best) {
   best.elapsed = std::min(best.elapsed, run.elapsed);
 }
 
-/// Time of one call [s]: the fastest of several rounds.
+/// Returns the time of one call [s]: the fastest of several rounds.
 double time_of(const std::function<void()>& call, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   call();
   double best = 1e9;

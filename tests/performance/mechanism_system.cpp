@@ -76,7 +76,7 @@ class Phases {
   std::vector<Phase> phases_;
 };
 
-/// The last row of each hinge.
+/// Returns the last row of each hinge.
 std::vector<int> one_of_each(const System& system) {
   std::vector<int> result;
   for (const Slots& slots : system.slots())

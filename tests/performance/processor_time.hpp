@@ -5,7 +5,8 @@
 
 namespace bielle::performance {
 
-/// Processor time [s] of the calling thread (CLOCK_THREAD_CPUTIME_ID), or of all threads (CLOCK_PROCESS_CPUTIME_ID).
+/// Returns the processor time [s] of the calling thread (CLOCK_THREAD_CPUTIME_ID), or of all threads
+/// (CLOCK_PROCESS_CPUTIME_ID).
 inline double processor_seconds(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   timespec t{};
   clock_gettime(clock, &t);

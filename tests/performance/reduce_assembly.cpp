@@ -20,7 +20,7 @@ namespace {
 using namespace bielle;
 using namespace bielle::reduce;
 
-/// Processor time [us] per unknown, the least of some rounds.
+/// Returns the processor time [us] per unknown, the least of some rounds.
 template <class Work>
 double microseconds_of(double unknowns, int rounds, const Work& work) {
   double least = 1e300;

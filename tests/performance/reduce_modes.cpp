@@ -59,7 +59,7 @@ Seconds seconds_of(const Work& work) {
           static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
-/// The fastest of some.
+/// Returns the shortest time of some rounds.
 template <class Work>
 Seconds best_of(int rounds, const Work& work) {
   Seconds best = seconds_of(work);

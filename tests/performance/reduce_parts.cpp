@@ -61,7 +61,7 @@ SymmetricMatrix three_fold(const NodeMatrix& mass) {
   return result;
 }
 
-/// Reading [GB/s], the best of some.
+/// Returns the bandwidth of reading [GB/s], the best of some rounds.
 double measure_bandwidth(int threads) {
   const std::vector<double> numbers(std::size_t{1} << 27, 1.0);  // 1 GB
   const auto count = static_cast<std::int64_t>(numbers.size());

@@ -20,7 +20,7 @@ namespace {
 
 using namespace bielle;
 
-/// The matrix of a grid of n x n x length points; its diagonal dominates.
+/// Returns the matrix of a grid of n x n x length points; its diagonal dominates.
 SymmetricMatrix solid(int n, int length, std::vector<std::int64_t>& blocks) {
   SymmetricMatrix a;
   const int points = n * n * length;
@@ -44,7 +44,7 @@ SymmetricMatrix solid(int n, int length, std::vector<std::int64_t>& blocks) {
   return a;
 }
 
-/// Processor time [ms], the least of some.
+/// Returns the processor time [ms], the least of some.
 template <class Work>
 double milliseconds_of(const Work& work) {
   double least = 1e300;

@@ -9,7 +9,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 
 class Element:
-    """Nodes s from 0 to a length, their weights, and D: the derivatives at the nodes of what has values there."""
+    """Nodes s from 0 to a length, their weights, and the matrix D, which maps values at the nodes to derivatives
+    there."""
 
     def __init__(self, length, nodes):
         p = np.polynomial.legendre.Legendre.basis(nodes - 1)
@@ -114,7 +115,8 @@ class SpaceRod:
 
 
 class Gauss:
-    """q'' = a(t, q, q') by Gauss' collocation with three stages: order 6, stable however fast what is not excited."""
+    """q'' = a(t, q, q') by Gauss' collocation with three stages: order 6, stable for components of any frequency that
+    are not excited."""
 
     r = np.sqrt(15)
     c = np.array([0.5 - r / 10, 0.5, 0.5 + r / 10])

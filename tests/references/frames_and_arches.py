@@ -105,7 +105,7 @@ class ShallowArch:
 
 
 class Curve:
-    """A path with what is sought on it."""
+    """A path, and the points that are sought on it."""
 
     def __init__(self, model, length, step=0.1):
         self.model = model

@@ -30,7 +30,7 @@ def with_jacobian(function, u):
 
 
 def newton(function, u, size=1.0, iterations=40):
-    """The zero near u. @param size  of the unknowns, each or all"""
+    """Returns the zero near u. @param size  size of the unknowns, one for each or one for all"""
     u = np.array(u, float)
     for _ in range(iterations):
         r, J = with_jacobian(function, u)
@@ -60,7 +60,7 @@ class Plane:
 
 
 class Path:
-    """The curve r(u) = 0 of one equation less than unknowns, followed by its own length in units of `size`.
+    """The curve r(u) = 0 of one equation fewer than unknowns, followed by its arc length in units of `size`.
 
     Points are [u, scaled tangent, length to the next].
     """

@@ -22,7 +22,8 @@ constexpr std::array<double, 4> gauss_points = {-0.8611363115940526, -0.33998104
 constexpr std::array<double, 4> gauss_weights = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                                  0.3478548451374538};
 
-/// Displacement (order 0) or its derivative along the element of the given order, element axes, at z in 0..1.
+/// Returns the displacement (order 0) or its derivative along the element of the given order, element axes, at z in
+/// 0..1.
 Rows shape_functions(double z, double L, int order) {
   std::array<double, 4> H;  // v1, theta1, v2, theta2
   if (order == 0) {
@@ -108,7 +109,8 @@ struct Full {
     }
   }
 
-  /// Geometric stiffness under the section forces that `load` raises in the free body, balanced by rigid-body inertia.
+  /// Returns the geometric stiffness under the section forces that `load` raises in the free body, balanced by
+  /// rigid-body inertia.
   MatrixXd prestress(const BeamChain& chain, const VectorXd& load) const {
     const MatrixXd MU = product(M, rigid);
     const VectorXd balanced = load - MU * solve_symmetric(transposed_product(rigid, MU), rigid.transpose() * load);
@@ -128,8 +130,8 @@ struct Full {
     return geometric;
   }
 
-  /// n.Gamma_2 + m.kappa_2 at z as a form in the ends' displacements, element axes, where n and m belong to other
-  /// displacements of the ends.
+  /// Returns n.Gamma_2 + m.kappa_2 at z as a form in the ends' displacements, element axes, where n and m belong to
+  /// other displacements of the ends.
   static Eigen::Matrix<double, 12, 12> second_variation(const BeamProperties& p, double z, double L,
                                                         const Eigen::Matrix<double, 12, 1>& ends) {
     const Rows d1 = shape_functions(z, L, 1), d2 = shape_functions(z, L, 2);
@@ -156,7 +158,7 @@ struct Full {
            0.5 * n.x() * theta.transpose() * theta + 0.5 * theta.transpose() * cross(m) * theta_rate;
   }
 
-  /// Loads of the centrifugal field of the pair k, l: half of the terms of Om_k Om_l when k differs from l.
+  /// Returns the loads of the centrifugal field of the pair k, l: half of the terms of Om_k Om_l when k differs from l.
   VectorXd centrifugal(int k, int l) const {
     VectorXd acceleration(3 * points.cols());
     for (Eigen::Index g = 0; g < points.cols(); ++g) {

@@ -61,16 +61,16 @@ struct BeamChain {
 /// with its section.
 void add_mesh(const BeamChain& chain, double distance, BeamSuperelement& reduced);
 
-/// The straight free-free beam of length 1 along x from the origin, 20 elements, its end nodes as interfaces "a" and
-/// "b".
+/// Returns the straight free-free beam of length 1 along x from the origin, 20 elements, its end nodes as interfaces
+/// "a" and "b".
 BeamChain straight_beam(const BeamProperties& properties = {}, int modes = 4);
 
-/// A bent body in space with three interfaces, two of them with turned axes, 5 modes, damping, prestress, and the load
-/// patterns "push" (one point) and "spread" (two).
+/// Returns a bent body in space with three interfaces, two of them with turned axes, 5 modes, damping, prestress, and
+/// the load patterns "push" (one point) and "spread" (two).
 BeamChain bent_chain();
 
-/// The bent body with different kept directions of its interfaces: all; only forces at one; all but one rotation at one
-/// and a single moment at another; two translations and two rotations; only forces at all three.
+/// Returns the bent body with different kept directions of its interfaces: all; only forces at one; all but one
+/// rotation at one and a single moment at another; two translations and two rotations; only forces at all three.
 std::vector<BeamChain> bent_chains();
 
 }  // namespace bielle::test

@@ -50,7 +50,7 @@ class Bounce {
     const double v = e * ((b * w - delta_ * a) * c - (a * w + delta_ * b) * n);
     return {upper_ + p, v, -(omega_ * omega_ * p + 2 * delta_ * v)};
   }
-  /// The first zero of a function past `from`, negative there. @param step  below the distance of its zeros
+  /// Returns the first zero of a function past `from`, negative there. @param step  below the distance of its zeros
   template <class Function>
   static double zero(const Function& g, double from, double step) {
     double low = from, high = from + step;

@@ -17,12 +17,12 @@ struct Box {
   bool quadratic = true;               ///< tet10 and tri6, or tet4 and tri3
 };
 
-/// The mesh, with the volume group "solid" and the surface groups "x0" "x1" "y0" "y1" "z0" "z1" (faces oriented
+/// Returns the mesh, with the volume group "solid" and the surface groups "x0" "x1" "y0" "y1" "z0" "z1" (faces oriented
 /// outward).
 /// @param map  moves the points, mid-side nodes included: a non-linear map makes curved cells
 reduce::Mesh box_mesh(const Box& box, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map = {});
 
-/// The same with vertices moved at random by at most `amount` of a brick's edge inside the box (fixed seed) and
+/// Returns the same with vertices moved at random by at most `amount` of a brick's edge inside the box (fixed seed) and
 /// mid-side nodes kept in the middle: straight-sided distorted cells.
 reduce::Mesh distorted_box_mesh(const Box& box, double amount);
 

@@ -24,7 +24,7 @@ Corners columns(const std::vector<Eigen::Vector3d>& points) {
   return all;
 }
 
-/// Vertices of the cells of a unit cube.
+/// Returns the vertices of the cells of a unit cube.
 std::vector<Corners> cells_of_cube(int vertices) {
   const auto corner = [](int i, int j, int k) { return Eigen::Vector3d(i, j, k); };
   const std::vector<Eigen::Vector3d> cube = {corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0),
@@ -85,7 +85,7 @@ struct UnitCell {
 
 using CellsOfBrick = std::function<std::vector<UnitCell>(int i, int j, int k)>;
 
-/// Places of all nodes of a cell from its corners: (corners, nodes).
+/// Returns the places of all nodes of a cell from its corners: (corners, nodes).
 Eigen::MatrixXd shares_of_corners(CellType type) {
   const Eigen::MatrixXd local = reduce::local_nodes(type);
   Eigen::MatrixXd shares(reduce::vertex_count(type), local.cols());
@@ -167,7 +167,7 @@ reduce::Mesh box_of(const CellsOfBrick& cells_of_brick, const Eigen::Vector3d& s
   return mesh;
 }
 
-/// The type of an order with this number of vertices; hex20, not hex27.
+/// Returns the type of an order with this number of vertices; hex20, not hex27.
 CellType type_of(int vertices, int order) {
   switch (vertices) {
     case 4:
@@ -187,7 +187,7 @@ std::vector<UnitCell> cells_of_type(CellType type) {
   return cells;
 }
 
-/// A pyramid as two tetrahedra, between which the diagonal of its base lies.
+/// Returns a pyramid as two tetrahedra, between which the diagonal of its base lies.
 std::vector<UnitCell> halves_of_pyramid(const Corners& pyramid, int order) {
   const auto tetrahedron = [&](int a, int b, int c) {
     return UnitCell{type_of(4, order), columns({pyramid.col(a), pyramid.col(b), pyramid.col(c), pyramid.col(4)})};

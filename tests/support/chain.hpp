@@ -22,7 +22,7 @@ inline std::string chain(int links, const std::string& joint) {
   return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
-/// A chain of flexible links: each is a steel bar of 1 m and 1 kg, one beam element, joined by hinges.
+/// Returns a chain of flexible links: each is a steel bar of 1 m and 1 kg, one beam element, joined by hinges.
 inline std::string flexible_chain(int links) {
   std::string nodes, elements, joints;
   for (int k = 0; k < links; ++k) {

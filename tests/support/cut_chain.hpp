@@ -7,7 +7,7 @@
 
 namespace bielle::test {
 
-/// The part of the beam between two places of its axis.
+/// Returns the part of the beam between two places of its axis.
 inline Superelement beam_part(double from, double to, const std::string& start, const std::string& end,
                               const BeamLoad& load = {}) {
   BeamChain chain;

@@ -33,11 +33,9 @@ class DenseModel {
   int amplitude_begin() const { return 6 * nodes_; }
   int first_order_begin() const { return amplitude_begin() + amplitudes_; }
   int multiplier_begin() const { return multiplier_begin_; }
-  const std::vector<Declaration>& declarations() const {
-    return declarations_;
-  }  ///< declarations of the tested
-     ///< members
-  /// Whether a first-order unknown has no rate.
+  /// Returns the declarations of the tested members.
+  const std::vector<Declaration>& declarations() const { return declarations_; }
+  /// Returns whether a first-order unknown has no rate.
   bool is_algebraic(int first_order) const { return algebraic_[static_cast<std::size_t>(first_order)]; }
   mechanism::ConstraintKind constraint_kind(int multiplier) const {
     return constraint_kinds_[static_cast<std::size_t>(multiplier)];
@@ -45,7 +43,7 @@ class DenseModel {
 
   Environment environment;
 
-  /// Nodes as in the model, scalars at their start values, no accelerations.
+  /// Returns the nodes as in the model, scalars at their start values, no accelerations.
   State start() const;
 
   // Steps of a state along the unknowns: positions (nodes by the exponential map), rates, accelerations.
@@ -54,7 +52,7 @@ class DenseModel {
   void move_accelerations(State& state, const VectorX& step) const;
   VectorX rates(const State& state) const;          ///< xdot, Omega, amplitude and first-order rates; multipliers 0
   VectorX accelerations(const State& state) const;  ///< likewise; first-order 0
-  /// The state a time s later on a path with the state's rates and accelerations, right up to s^2.
+  /// Returns the state a time s later on a path with the state's rates and accelerations, right up to s^2.
   State along_motion(const State& state, double s) const;
 
   VectorX residual(const State& state) const;
@@ -62,7 +60,7 @@ class DenseModel {
   /// of the pattern that it declares
   enum class Part { K, C, M };
   MatrixX tangent(const State& state, Part part) const;
-  /// Multipliers of the tested members (they come first), without those of components to which they refer.
+  /// Returns the multipliers of the tested members (they come first), without those of components to which they refer.
   int own_multipliers() const { return own_multipliers_; }
   /// First and second time derivatives of the constraint rows.
   void constraint_rates(const State& state, VectorX& velocity, VectorX& acceleration) const;

@@ -5,7 +5,7 @@
 
 namespace bielle::test {
 
-/// x = A^-1 b
+/// Returns x = A^-1 b.
 inline Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   LUFactors factors;
   factors.compute(A);

@@ -5,7 +5,7 @@
 
 namespace bielle::test {
 
-/// All eigenvalues, in no particular order.
+/// Returns all eigenvalues, in no particular order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 
 }  // namespace bielle::test

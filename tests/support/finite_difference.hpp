@@ -11,7 +11,7 @@ namespace bielle::test {
 
 inline constexpr double difference_step = 0.02;
 
-/// df/ds at s = 0 of a function of one number with values in an Eigen type (or double).
+/// Returns df/ds at s = 0 of a function of one number with values in an Eigen type (or double).
 template <class Function>
 auto derivative(const Function& f, double h = difference_step) {
   const auto central = [&](double step) {
@@ -26,7 +26,7 @@ auto derivative(const Function& f, double h = difference_step) {
   return extrapolated;
 }
 
-/// Jacobian of a vector function of a vector: column k is the derivative along unit direction k at zero.
+/// Returns the Jacobian of a vector function of a vector: column k is the derivative along unit direction k at zero.
 template <class Function>
 Eigen::MatrixXd jacobian(const Function& f, Eigen::Index columns, double h = difference_step) {
   Eigen::MatrixXd J;

@@ -12,7 +12,7 @@ struct FourBar {
   mechanism::Vector3 A, B, C, D;
 };
 
-/// Ground 1, crank 0.3 at 60 degrees, coupler 0.9, rocker 0.7 m; the open branch.
+/// Returns a four-bar with ground 1, crank 0.3 at 60 degrees, coupler 0.9, rocker 0.7 m; the open branch.
 inline FourBar released_four_bar() {
   using mechanism::Vector3;
   const double a = M_PI / 3;

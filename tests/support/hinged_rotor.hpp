@@ -5,7 +5,7 @@
 
 namespace bielle::test {
 
-/// A rotor of 0.5 kg m^2 about the z axis, followed by further text.
+/// Returns a rotor of 0.5 kg m^2 about the z axis, followed by further text.
 inline std::string rotor(const std::string& more) {
   return R"yaml(
 nodes: {rotor: {position: [0, 0, 0]}}

@@ -14,24 +14,24 @@ struct LargeModel {
   bool stands = true;          ///< has an equilibrium where it is drawn
 };
 
-/// Rigid links of 1 m and 1 kg, horizontal from the ground, each on a hinge with a spring.
+/// Returns rigid links of 1 m and 1 kg, horizontal from the ground, each on a hinge with a spring.
 std::string hinged_links(int n);
 /// Links with a drive in each joint, and a measure of each, named in its section.
 std::string driven_links(int n);
 /// Masses off their nodes, joined by spherical joints: each node has one direction about which it has no inertia.
 std::string masses_on_joints(int n);
-/// Point masses along a line, joined by prestressed springs.
+/// Returns point masses along a line, joined by prestressed springs.
 std::string masses_on_springs(int n);
-/// One clamped beam of 100 m, divided into n elements.
+/// Returns one clamped beam of 100 m, divided into n elements.
 std::string beam_of_elements(int n);
-/// A ladder of planar four-bars with springs, in whose file all upper joints precede the lower ones: each loop has
-/// three redundant constraints.
+/// Returns a ladder of planar four-bars with springs, in whose file all upper joints precede the lower ones: each loop
+/// has three redundant constraints.
 std::string ladder_of_loops(int n);
 /// Links like those of `hinged_links`, each a placed part: a body, a hinge, a spring and a measure. A node of each is
 /// merged with the end of the link before it, `link_7.end`.
 std::string links_of_parts(int n);
 
-/// All of them.
+/// Returns all large models.
 const std::vector<LargeModel>& large_models();
 
 }  // namespace bielle::test

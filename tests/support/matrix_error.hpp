@@ -5,7 +5,7 @@
 
 namespace bielle::test {
 
-/// The largest difference of two entries.
+/// Returns the largest difference of two entries.
 inline double error(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 }  // namespace bielle::test

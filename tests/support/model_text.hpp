@@ -8,7 +8,7 @@
 
 namespace bielle::test {
 
-/// The model of a mechanism file's text; errors name the file "model.yaml".
+/// Returns the model of a mechanism file's text; errors name the file "model.yaml".
 std::unique_ptr<mechanism::Model> model_from_text(const std::string& text);
 
 }  // namespace bielle::test

@@ -14,14 +14,14 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_()) / 4294967295.0);
   }
-  /// A vector with components in [-scale, scale].
+  /// Returns a vector with components in [-scale, scale].
   Eigen::VectorXd vector(Eigen::Index size, double scale = 1) {
     Eigen::VectorXd v(size);
     for (Eigen::Index i = 0; i < size; ++i) v[i] = uniform(-scale, scale);
     return v;
   }
   Eigen::Vector3d vector3(double scale = 1) { return vector(3, scale); }
-  /// A vector of the given length in a random direction.
+  /// Returns a vector of the given length in a random direction.
   Eigen::Vector3d vector_of_length(double length) {
     for (;;) {
       const Eigen::Vector3d v = vector3();
@@ -33,7 +33,7 @@ class Random {
     for (Eigen::Index j = 0; j < columns; ++j) A.col(j) = vector(rows, scale);
     return A;
   }
-  /// A symmetric positive definite matrix with eigenvalues in about [0.5, size].
+  /// Returns a symmetric positive definite matrix with eigenvalues in about [0.5, size].
   Eigen::MatrixXd positive_matrix(Eigen::Index size) {
     const Eigen::MatrixXd A = matrix(size, size);
     return 0.5 * Eigen::MatrixXd::Identity(size, size) + A * A.transpose();

@@ -32,11 +32,11 @@ class ReferenceTable {
     if (found == values_.end()) throw std::runtime_error(path_ + " has no '" + name + "'");
     return found->second;
   }
-  /// The rows `name.x`, `name.y` and `name.z`.
+  /// Returns the rows `name.x`, `name.y` and `name.z`.
   Eigen::Vector3d vector(const std::string& name) const {
     return {(*this)(name + ".x"), (*this)(name + ".y"), (*this)(name + ".z")};
   }
-  /// The rows `name.x` and `name.y`.
+  /// Returns the rows `name.x` and `name.y`.
   Eigen::Vector2d plane(const std::string& name) const { return {(*this)(name + ".x"), (*this)(name + ".y")}; }
 
  private:

@@ -27,7 +27,7 @@ class RoughDrawing {
     elements_ +=
         fmt::format("  {}: {{type: rigid_body, node: {}, mass: 1, inertia: [0.01, 0.02, 0.02]}}\n", name, name);
   }
-  /// The model file. @param joints  entries, each on a line of its own
+  /// Returns the model file. @param joints  entries, each on a line of its own
   std::string text(const std::string& joints) const {
     return "nodes:\n" + nodes_ + "elements:\n" + elements_ + "joints:\n" + joints;
   }

@@ -30,7 +30,7 @@ class SolidModel {
   }
   SolidModel(const SolidModel&) = delete;
 
-  /// Natural frequencies [Hz], ascending; a free body's six rigid motions are left out.
+  /// Returns the natural frequencies [Hz], ascending; a free body's six rigid motions are left out.
   Eigen::VectorXd frequencies(int count, const EigenpairOptions& options = {}) const {
     const bool is_free = static_cast<Eigen::Index>(free_.size()) == 3 * mesh.point_count();
     const double shift = is_free ? -1e6 : 0;  // (rad/s)^2
@@ -50,7 +50,7 @@ class SolidModel {
            (2 * std::numbers::pi);
   }
 
-  /// Displacements of all points under forces on all points.
+  /// Returns the displacements of all points under forces on all points.
   RowMatrix solve(const RowMatrix& forces) const {
     return expand(SymmetricFactor(principal_submatrix(stiffness, free_)).solve(restrict(forces)));
   }

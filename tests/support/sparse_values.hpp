@@ -31,7 +31,7 @@ struct SparseValues {
   }
 };
 
-/// Largest residual relative to |A| |x|, row by row: of the order of rounding for a stable solution.
+/// Returns the largest residual relative to |A| |x|, row by row: of the order of rounding for a stable solution.
 inline double backward_error(const mechanism::MatrixX& A, const mechanism::VectorX& x, const mechanism::VectorX& b) {
   return ((A * x - b).cwiseAbs().array() / (A.cwiseAbs() * x.cwiseAbs()).array()).maxCoeff();
 }

@@ -19,7 +19,7 @@ struct Mix {
   }
 
  private:
-  /// A number in [0.2, 1] of its own for each row.
+  /// Returns a number in [0.2, 1] of its own for each row.
   static double share(int row, double phase) { return 0.6 + 0.4 * std::sin(2.3 * row + phase); }
   static Vector3 shares(int row, double phase) {
     return {share(row, phase), share(row + 1, phase), share(row + 2, phase)};

@@ -45,15 +45,15 @@ struct StaticModel {
   void hold(const std::string& name, int direction) { std::erase(free, unknown(name, direction)); }
   mechanism::MatrixX stiffness() const { return dense.tangent(state, DenseModel::Part::K)(free, free); }
 
-  /// Sign of the determinant of the stiffness, which changes at a critical load.
+  /// Returns the sign of the determinant of the stiffness, which changes at a critical load.
   int stiffness_sign() const {
     LUFactors factors;
     factors.compute(stiffness());
     return factors.sign();
   }
 
-  /// The first load factor above `low` at which the stiffness becomes singular: upwards in steps until the sign of its
-  /// determinant changes, then by bisection. The state follows.
+  /// Returns the first load factor above `low` at which the stiffness becomes singular: upwards in steps until the sign
+  /// of its determinant changes, then by bisection. The state follows.
   double critical_load(double low, double step, double tolerance, double width) {
     const auto sign_at = [&](double factor) {
       if (load(1, tolerance, factor) < 0) throw std::runtime_error("no equilibrium on the way to a critical load");
@@ -73,8 +73,9 @@ struct StaticModel {
     return 0.5 * (low + high);
   }
 
-  /// Displacement control: moves a node's coordinate (0..2) to a value in equal steps; the load factor is an unknown.
-  /// It passes limit points of the load. @returns the load factor @throws std::runtime_error without convergence
+  /// Controls a displacement: moves a node's coordinate (0..2) to a value in equal steps; the load factor is an
+  /// unknown. It passes limit points of the load. @returns the load factor @throws std::runtime_error without
+  /// convergence
   double control(const std::string& name, int coordinate, double value, int steps, double tolerance) {
     const auto row = std::find(free.begin(), free.end(), unknown(name, coordinate)) - free.begin();
     const Eigen::Index n = static_cast<Eigen::Index>(free.size());

@@ -21,15 +21,15 @@ class SuperelementAlone {
   int size() const { return slots_.size(); }  ///< number of unknowns z: 6 per node, then amplitudes
   mechanism::Environment environment;
 
-  /// The undeformed body placed at `frame` and moving rigidly: v of the frame's origin [inertial], Om [body axes],
-  /// with constant v and Om.
+  /// Returns the undeformed body placed at `frame` and moving rigidly: v of the frame's origin [inertial], Om [body
+  /// axes], with constant v and Om.
   mechanism::State rigid_state(const mechanism::Frame& frame, const mechanism::Vector3& v = mechanism::Vector3::Zero(),
                                const mechanism::Vector3& Om = mechanism::Vector3::Zero()) const;
-  /// A state anywhere in space, deformed by translations and rotations up to `deformation`, with rates and
+  /// Returns a state anywhere in space, deformed by translations and rotations up to `deformation`, with rates and
   /// accelerations of order `rate`.
   mechanism::State random_state(Random& random, double deformation, double rate) const;
 
-  /// state with positions moved by z and rates and accelerations changed.
+  /// Returns `state` with positions moved by z and rates and accelerations changed.
   mechanism::State moved(const mechanism::State& state, const Eigen::VectorXd& z) const;
   mechanism::State with_rates(const mechanism::State& state, const Eigen::VectorXd& v, const Eigen::VectorXd& a) const;
   Eigen::VectorXd velocity(const mechanism::State& state) const;
@@ -43,7 +43,7 @@ class SuperelementAlone {
   mechanism::Energy energy(const mechanism::State& state) const;
   Eigen::VectorXd output(const mechanism::State& state) const;
   mechanism::CorotatedGeometry geometry(const mechanism::State& state) const;
-  /// The body's linear coordinates at a state, in the layout of its matrices.
+  /// Returns the body's linear coordinates at a state, in the layout of its matrices.
   Eigen::VectorXd coordinates(const mechanism::State& state) const;
   mechanism::LocalState local(const mechanism::State& state) const { return {state, slots_, environment}; }
 

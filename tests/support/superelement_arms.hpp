@@ -54,8 +54,8 @@ loads: {{push: {{node: tip, force: [0.1, "0.1*sin(20*t)", 0.2]}}}}
   TemporaryFolder folder_;
 };
 
-/// The arms with condensed amplitudes; or the same equations with amplitudes coupled to a component that adds nothing,
-/// which prevents their condensation.
+/// The arms with condensed amplitudes, or the same equations with amplitudes that are coupled to a component without
+/// forces, which prevents their condensation.
 struct ArmsSystem {
   mechanism::MechanismFile file;
   mechanism::System system;

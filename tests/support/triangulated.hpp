@@ -17,7 +17,7 @@ inline void add_quad(Corners& corners, const mechanism::Vector3& a, const mechan
   corners.insert(corners.end(), {a, b, c, a, c, d});
 }
 
-/// A floor at z = 0 of n x n squares within +-half, cut along their diagonals.
+/// Returns a floor at z = 0 of n x n squares within +-half, cut along their diagonals.
 inline Corners floor_of_triangles(double half, int n) {
   Corners corners;
   const auto at = [&](int k) { return half * (2. * k / n - 1); };
@@ -27,7 +27,7 @@ inline Corners floor_of_triangles(double half, int n) {
   return corners;
 }
 
-/// A closed box, each face of two triangles.
+/// Returns a closed box, each face of two triangles.
 inline Corners box_of_triangles(const mechanism::Vector3& half) {
   Corners corners;
   for (int axis = 0; axis < 3; ++axis)
@@ -41,7 +41,7 @@ inline Corners box_of_triangles(const mechanism::Vector3& half) {
   return corners;
 }
 
-/// A wedge on z = 0 that rises along x from 0 to `length` at an angle, +-half wide along y.
+/// Returns a wedge on z = 0 that rises along x from 0 to `length` at an angle, +-half wide along y.
 inline Corners wedge_of_triangles(double length, double angle, double half) {
   const double h = length * std::tan(angle);
   const mechanism::Vector3 a(0, -half, 0), b(0, half, 0), c(length, -half, 0), d(length, half, 0), e(length, -half, h),
@@ -54,7 +54,7 @@ inline Corners wedge_of_triangles(double length, double angle, double half) {
   return corners;
 }
 
-/// A ball: an octahedron whose triangles are each divided in four, `levels` times, its corners on the ball.
+/// Returns a ball: an octahedron whose triangles are each divided in four, `levels` times, its corners on the ball.
 inline Corners ball_of_triangles(double radius, int levels) {
   using mechanism::Vector3;
   Corners corners;

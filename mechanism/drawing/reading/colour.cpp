@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Names of CSS with their values.
+/// Returns the names of CSS with their values.
 const std::map<std::string, std::string>& colour_names() {
   static const std::map<std::string, std::string> names = {
       {"black", "#000000"},     {"white", "#ffffff"},     {"gray", "#808080"},      {"grey", "#808080"},

@@ -59,7 +59,7 @@ constexpr std::array<DrawnForm, 6> drawn_forms = {{{"box", read_drawn_box},
                                                    {"cone", read_drawn_cone},
                                                    {"ring", read_drawn_ring}}};
 
-/// Reads the form of a map that has just one of them, besides files, and its place.
+/// Reads the form of a map, which must contain exactly one form (files may be given in addition), and its place.
 DrawnItem read_form(const YamlValue& map, int node) {
   DrawnItem item;
   for (const DrawnForm& form : drawn_forms) {

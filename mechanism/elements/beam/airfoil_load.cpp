@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t wind_along = 0, wind_in_time = 1;  // argument numbers of the wind's formulas
 
-/// Pieces of the integral between the places along the beam at which coefficients, chord or twist have a kink.
+/// Returns the pieces of the integral between the places along the beam at which coefficients, chord or twist have a
+/// kink.
 std::vector<double> airfoil_pieces(const Airfoil& airfoil, const BeamSpan& span) {
   std::vector<double> places = airfoil.polars.break_points();
   for (const Expression* formula : {&airfoil.chord, &airfoil.twist})
@@ -122,7 +123,7 @@ void AirfoilLoad::calc_time_formulas(const LocalState& state, std::span<double> 
 }
 
 void AirfoilLoad::describe(const LocalState& /*state*/, Description& description) const {
-  if (span().s_A > 0) return;  // equal on all elements
+  if (span().s_A > 0) return;  // the load is the same on all elements
   description.add_line(fmt::format("airfoil: chord {} m, twist {} rad, wind {} m/s, air of {:.6g} kg/m^3",
                                    airfoil_.chord.text(), airfoil_.twist.text(), format_vector(airfoil_.wind),
                                    airfoil_.density));
@@ -169,7 +170,7 @@ Airfoil read_airfoil(const YamlValue& value) {
         value.at("chord").fail(
             fmt::format("expected a chord greater than 0, found {:.6g} m at s = {:.6g}", airfoil.chord(s), s));
       airfoil.twist(s);
-    } catch (const ComputationError& error) {  // names the place
+    } catch (const ComputationError& error) {  // the message names the place
       throw InputError(error.what());
     }
   }

@@ -138,7 +138,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   if (count > 1) elements.front()->set_beam({elements.begin(), elements.end()});
   if (const auto distributed = entry.find("distributed")) add_line_loads(name, *distributed, spans, own, model);
   model.add_chain(own, nodes);
-  std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections
+  std::vector<std::vector<double>> turns;  // rotation from the axes of each end node to those of its section
   for (const auto& [node, at] :
        {std::pair{nodes.front(), sections.front()}, std::pair{nodes.back(), sections.back()}}) {
     const Eigen::Vector4d turn_there = quaternion_of(model.node(node).frame.R.transpose() * at.R);

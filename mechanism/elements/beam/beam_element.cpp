@@ -97,7 +97,7 @@ void BeamElement::declare(Declaration& declaration) const {
 
 Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
   const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
-  // Past 180 degrees the logarithm jumps to the opposite rotation.
+  // The logarithm jumps to the opposite rotation at 180 degrees.
   if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
     refuse(state, "its ends have turned past 180 degrees against each other", ", or take smaller steps");
   return d;
@@ -200,7 +200,7 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
   Matrix12x6 G;
   G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
   G.noalias() += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * bows_gradient);
-  // Products of this size are slower through Eigen's blocked kernel than by their coefficients.
+  // Products of this size are faster by coefficients than through Eigen's blocked kernel.
   Matrix12 K_b = D.S.transpose().lazyProduct(f_gradient(D));
   K_b.noalias() += G.lazyProduct(D.P);
   add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
@@ -243,7 +243,8 @@ void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
   if (!inertia_.is_massless()) inertia_.add_energy(state, energy);
 }
 
-// A shear that is constant along the element stands for the moment that varies along it (residual flexibility).
+// Energies of shear are added to those of bending: they contain the energy of the moment's variation along the element
+// (residual flexibility).
 StrainEnergies BeamElement::strain_energies(const LocalState& state, const Eigen::Ref<const VectorX>& du) const {
   const Deformation D = deformation(state);
   Vector12 h;

@@ -89,7 +89,7 @@ BeamLine arc_through(const YamlValue& value, const Vector3& start, const Vector3
     const double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
-  // About +n the three points are in the order start, through, end.
+  // The rotation about +n leads from `start` through the second point to `end`.
   return BeamLine::arc(start, centre, axis, angle_to(end));
 }
 

@@ -17,10 +17,10 @@ struct Point {
   std::array<Vector3, 2> a;  ///< [m], node axes
 };
 
-/// The vector a x b of a matrix a b^T.
+/// Returns the vector a x b of a matrix a b^T.
 Vector3 axial(const Matrix3& A) { return {A(1, 2) - A(2, 1), A(2, 0) - A(0, 2), A(0, 1) - A(1, 0)}; }
 
-/// sum a~ B b~ of a matrix T = sum a b^T.
+/// Returns sum a~ B b~ of a matrix T = sum a b^T.
 Matrix3 skewed(const Matrix3& T, const Matrix3& B) {
   Matrix3 sum;
   for (int j = 0; j < 3; ++j)
@@ -31,7 +31,7 @@ Matrix3 skewed(const Matrix3& T, const Matrix3& B) {
   return sum;
 }
 
-/// Tangent of the line of mass centres at c, from the derivative of the section frame.
+/// Returns the tangent of the line of mass centres at c, from the derivative of the section frame.
 Vector3 tangent_of(const Vector6& rate, const Vector3& c) { return rate.head<3>() + rate.tail<3>().cross(c); }
 
 }  // namespace

@@ -31,7 +31,7 @@ class SectionForceMeasure final : public OwnMeasure {
   int component_;
 };
 
-/// d(Ad_exp(h)^T y)/dh at h = 0.
+/// Returns d(Ad_exp(h)^T y)/dh at h = 0.
 Matrix6 transferred_gradient(const Vector6& y) {
   Matrix6 Y;
   Y << Matrix3::Zero(), skew(y.head<3>()), skew(y.head<3>()), skew(y.tail<3>());

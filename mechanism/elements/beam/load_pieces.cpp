@@ -77,7 +77,7 @@ void check_load_integral(const YamlValue& value, const StateFormula& formula, st
         fine += load_integral(ends, many, value_at);
         size += load_integral(ends, many, [&](double s) { return std::abs(value_at(s)); });
       }
-    } catch (const ComputationError& error) {  // names the place
+    } catch (const ComputationError& error) {  // the message names the place
       throw InputError(error.what());
     }
     constexpr double allowed = 1e-2;

@@ -17,11 +17,11 @@ namespace {
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Fields = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Quadratic shape functions of [0, 1] with nodes 0, 1/2, 1, and their derivatives.
+/// Returns the quadratic shape functions of [0, 1] with nodes 0, 1/2, 1.
 Vector3 shape(double t) { return {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)}; }
 Vector3 shape_slope(double t) { return {4 * t - 3, 4 - 8 * t, 4 * t - 1}; }
 
-/// Products of functions of y and of z; node 3 j + i is at the i-th position along y and the j-th along z.
+/// Returns the products of functions of y and of z; node 3 j + i is at the i-th position along y and the j-th along z.
 Vector9 product(const Vector3& along_y, const Vector3& along_z) {
   Vector9 all;
   for (int j = 0; j < 3; ++j) all.segment<3>(3 * j) = along_z[j] * along_y;
@@ -59,7 +59,7 @@ const std::vector<GaussPoint>& gauss_points() {
 
 /// Adds grid lines from a to b, with fine cells at both ends. @param first  size of the cells there
 void add_lines(double a, double b, double first, double growth, std::vector<double>& lines) {
-  const double largest = 0.08 * (b - a);  // so that the parabolic shear stress of a web is accurate to 1e-3
+  const double largest = 0.08 * (b - a);  // keeps the error of the parabolic shear stress of a web below 1e-3
   std::vector<double> from_end{0};
   double size = first;
   while (from_end.back() + size < 0.5 * (b - a)) {
@@ -121,7 +121,7 @@ bool RectangleArea::contains(const Vector2& p) const {
 
 double RectangleArea::thinnest_part() const {
   double least = INFINITY, size = 0;
-  for (const SectionRectangle& r : rectangles)  // edges of the thinnest ones are the same edge below
+  for (const SectionRectangle& r : rectangles)  // sort_edges() below merges the two edges of a very thin rectangle
     least = std::min({least, r.y1 - r.y0, r.z1 - r.z0});
   for (const bool along_y : {true, false}) {
     std::vector<double> edges;
@@ -236,15 +236,15 @@ void SaintVenant::solve(const RectangleArea& area) {
   }
   Eigen::SparseMatrix<double> K(nodes_, nodes_);  // lower triangle
   K.setFromTriplets(entries.begin(), entries.end());
-  // Functions are determined up to a constant: they are fixed at one node, at which the loads (whose sum is zero) have
-  // no effect.
+  // Functions are determined up to a constant. They are fixed at one node; the sum of the loads is zero, so that this
+  // has no effect on the stresses.
   K.coeffRef(0, 0) *= 2;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(K);
 
   const Matrix2 c = area.I.inverse();
   field_.setZero(nodes_, 3);
   constexpr int most = 12;
-  constexpr double enough = 1e-7;  // error of the stresses, from the energy of their correction
+  constexpr double enough = 1e-7;  // permitted error of the stresses, by the energy of their correction
   for (int k = 0; k < most; ++k) {
     const Fields r = evaluate(c);
     const Fields correction = factors.solve(r);

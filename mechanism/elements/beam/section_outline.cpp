@@ -22,7 +22,7 @@ DrawnOutline rectangle_outline(double y0, double y1, double z0, double z1) {
   return {{y0, z0}, {y1, z0}, {y1, z1}, {y0, z1}};
 }
 
-/// The outline of rectangles that stand on each other: up along their right sides, down along their left sides.
+/// Returns the outline of rectangles that stand on each other: up along their right sides, down along their left sides.
 DrawnOutline stack_outline(const std::vector<SectionRectangle>& stack) {
   DrawnOutline outline;
   for (const SectionRectangle& each : stack) {
@@ -36,7 +36,7 @@ DrawnOutline stack_outline(const std::vector<SectionRectangle>& stack) {
   return outline;
 }
 
-/// The walls of a box: below, above, left, right.
+/// Returns the walls of a box: below, above, left, right.
 DrawnSection box_outline(const std::vector<SectionRectangle>& walls) {
   const SectionRectangle &below = walls[0], &above = walls[1], &left = walls[2], &right = walls[3];
   return {0, rectangle_outline(below.y0, below.y1, below.z0, above.z1),

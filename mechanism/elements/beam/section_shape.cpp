@@ -137,8 +137,9 @@ class Walls : public SectionShape {
   SaintVenant solution_;
 };
 
-/// Rectangles of i [width below, above, height, web, flange below, above], t [width, height, web, flange], l [width,
-/// height, thickness of the leg along y, along z], box [width, height, thickness of the walls across y, across z].
+/// Returns the rectangles of i [width below, above, height, web, flange below, above], t [width, height, web, flange],
+/// l [width, height, thickness of the leg along y, along z], box [width, height, thickness of the walls across y,
+/// across z].
 std::vector<SectionRectangle> walls(const std::string& shape, const VectorX& d) {
   if (shape == "i")
     return {{-d[0] / 2, d[0] / 2, 0, d[4]},
@@ -239,7 +240,8 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
   if (dimensions.maxCoeff() > most_size) refuse_size(value, dimensions.maxCoeff());
   if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
   for (const double size : dimensions)
-    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: the shape has fewer dimensions)
+    // A zero marks a dimension that the shape does not have.
+    if (size != 0 && size < least_size) refuse_size(value, size);
   return dimensions;
 }
 

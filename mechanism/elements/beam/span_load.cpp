@@ -8,10 +8,10 @@
 namespace bielle::mechanism {
 namespace {
 
-/// W_B: maps a small rotation of end B to that of the section at z.
+/// Returns W_B, which maps a small rotation of end B to that of the section at z.
 Matrix3 end_share(double z, const Vector3& psi) { return z * tangent(z * psi) * tangent_inverse(psi); }
 
-/// d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
+/// Returns d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
 Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
   const Matrix3 T = tangent(z * psi);
   Matrix3 p_gradient;
@@ -19,12 +19,12 @@ Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
   return z * (inverse_transpose_gradient(psi, T.transpose() * n) + tangent_inverse(psi).transpose() * p_gradient);
 }
 
-/// d(W_k^T n)/dpsi of both ends with n fixed.
+/// Returns d(W_k^T n)/dpsi of both ends with n fixed.
 std::array<Matrix3, 2> share_gradients(const SpanPoint& point, const SpanSection& at, const Vector3& n) {
   return {-end_share_gradient(1 - point.z, -at.psi, n), end_share_gradient(point.z, at.psi, n)};
 }
 
-/// Derivatives of psi by small rotations of the section frames at the ends.
+/// Returns the derivatives of psi by small rotations of the section frames at the ends.
 std::array<Matrix3, 2> psi_gradients(const SpanSection& at) {
   const Matrix3 T_inverse = tangent_inverse(at.psi);
   return {-T_inverse.transpose(), T_inverse};

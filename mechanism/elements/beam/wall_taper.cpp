@@ -11,7 +11,7 @@ namespace {
 
 double radius_of_gyration(const RectangleArea& area) { return std::sqrt(area.I.trace() / area.area); }
 
-/// Chebyshev points of degree n on [0, 1]; every second one is of degree n/2.
+/// Returns the k-th Chebyshev point of degree n on [0, 1]. Every second one is of degree n/2.
 double chebyshev_point(int k, int n) { return 0.5 * (1 - std::cos(std::numbers::pi * k / n)); }
 
 }  // namespace

@@ -34,7 +34,7 @@ void StateEquation::declare(Declaration& declaration) const {
   }
   if (!rest_) return;
   declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
+  declaration.memory = {0};  // tells whether the equation has begun
 }
 
 VectorX StateEquation::input(const LocalState& state) const {

@@ -157,7 +157,7 @@ void announce_outputs(const Entry& entry, const StateSetup& setup, const StateUn
   }
 }
 
-/// The entry is bound to the keys of its kind.
+/// `entry` is bound to the keys of its kind.
 StateSetup read_setup(const std::string& name, const YamlValue& entry) {
   if (entry.has("rate")) return read_rate(name, entry);
   if (entry.has("filter")) return read_filter(name, entry);

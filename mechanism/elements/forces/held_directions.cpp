@@ -44,7 +44,7 @@ HeldDirections::HeldDirections(const Node& node, int index, const Matrix3& axes,
       const OneRotation& row = one_rotation[k];
       add_alignment(k, row.in_space, row.on_node, row.sign, node);
     } else {
-      // A small turn by c about q_k moves the kept axis b along q_k x b, one of the other axes.
+      // A small rotation by c about q_k moves the kept axis b along q_k x b, which is parallel to the third axis.
       const int across = 3 - k - kept_;
       const double sign = axes.col(k).cross(axes.col(kept_)).dot(axes.col(across)) > 0 ? 1 : -1;
       add_alignment(k, across, kept_, sign, node);

@@ -94,7 +94,7 @@ void SpringDamper::add_tangent(const LocalState& state, LocalTangent& tangent) c
   if (!tangent.wants_K) return;
   const Matrix3 Q = Matrix3::Identity() - L.u * L.u.transpose();
   Eigen::Matrix<double, 12, 1> v_gradient = Eigen::Matrix<double, 12, 1>::Zero();
-  // If the ends coincide (allowed without damper only) the quotient has no meaning and no effect.
+  // If the ends coincide (allowed only without damper), the direction is undefined, and the term has no effect.
   if (law.N_v != 0) v_gradient = calc_elongation(state).v_gradient;
   const Vector3 f = law.N * L.u;
   const double N_over_l = L.l > smallest_length(state) ? law.N / L.l : law.N_x;

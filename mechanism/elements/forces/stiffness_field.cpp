@@ -94,8 +94,8 @@ FieldMap ends_of_deformation() {
   return B;
 }
 
-/// Returns the forces due to unit rigid motions about the middle of the pair, relative to their size without
-/// cancellation: the largest of each kind.
+/// Returns the largest force of each kind that is due to unit rigid motions about the middle of the pair, relative to
+/// the size of its terms without cancellation.
 double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
   FieldMap rigid = FieldMap::Zero();
   for (const int node : {0, 1}) {
@@ -115,7 +115,7 @@ double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
   return most;
 }
 
-/// Returns B^T A B of a 12x12 matrix that only connects the two nodes.
+/// Reads a 12x12 matrix A that only connects the two nodes, and returns B^T A B.
 Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, const char* what) {
   MatrixX A = read_square_matrix(value, 12);
   if (symmetric) make_symmetric(value, A);

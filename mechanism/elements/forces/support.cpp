@@ -34,7 +34,7 @@ void Support::gather(const State& state, const Slots& slots, const Eigen::Ref<co
 }
 
 Vector6 Support::reaction(const LocalState& state) const {
-  // Reactions are the reported ones: the smallest if redundancy leaves them undetermined.
+  // The reported reactions are used; if redundancy leaves them undetermined, these are the smallest ones.
   const State* reported = &state.global();
   State smallest;
   if (reported->reaction.size() > 0) {
@@ -98,7 +98,7 @@ void add_supports(Model& model) {
   for (const Member& member : model.members())
     if (const auto* held = dynamic_cast<const HeldDirections*>(member.component.get()))
       constrained.emplace(held->node(), held);
-  std::map<int, int> held_by;  // for each node that is held, or carried by a held one
+  std::map<int, int> held_by;  // the held node, for each node that is held or carried by a held one
   const int count = static_cast<int>(model.nodes().size());
   for (int k = 1; k < count; ++k) {
     const int top = model.root_carrier(k);
@@ -115,7 +115,8 @@ void add_supports(Model& model) {
   std::map<int, std::vector<const Component*>> acting;
   std::map<const Component*, std::set<int>> known;
   for (const Member& member : model.members()) {
-    if (dynamic_cast<const HeldDirections*>(member.component.get())) continue;  // its forces are the support's own
+    // These forces are part of the support's own.
+    if (dynamic_cast<const HeldDirections*>(member.component.get())) continue;
     std::set<int> supports;
     for (const int node : nodes_of(*member.component, known))
       if (const auto held = held_by.find(node); held != held_by.end()) supports.insert(held->second);

@@ -36,24 +36,25 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   return J;
 }
 
-/// Refuses masses and moments of inertia that cannot be represented, as bodies of extreme sizes have them.
+/// Refuses masses and moments of inertia of bodies of extreme size that cannot be represented.
 void check_representable(const YamlValue& entry, const MassProperties& p) {
   if (!(p.mass > 0 && std::isfinite(p.mass) && p.inertia_about_origin().allFinite()))
     entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");
 }
 
-/// Warns of masses and inertias that may belong to another system of units. A compact body of mass m has a radius of
-/// gyration k with m/k^3 about 16 times its density; long and thin bodies have less, inertias in kg mm^2 give 1e-9 of
-/// it.
+/// Warns of masses and inertias that may be given in other units. A compact body of mass m and radius of gyration k has
+/// an m/k^3 of about 16 times its density. For long and thin bodies it is smaller; inertias in kg mm^2 reduce it by
+/// 1e-9.
 void warn_of_units(const YamlValue& entry, const MassProperties& p) {
   constexpr double heaviest = 1e7;   // [kg] mass of the steel of the Eiffel tower
-  constexpr double lightest = 1e-3;  // m/k^3 [kg/m^3]: 1 kg over 35 m
+  constexpr double lightest = 1e-3;  // smallest m/k^3 [kg/m^3]: that of 1 kg over 35 m
   const YamlValue mass = entry.at(entry.has("solid") ? "solid" : "mass");
   if (p.mass > heaviest)
     mass.warn(fmt::format("are {:.3g} kg meant? Lengths are in metres, densities in kg/m^3, masses in kg", p.mass));
   const auto inertia = entry.find("inertia");
   if (!inertia) return;
-  const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);  // for a long body; smaller for others
+  // This is the radius of gyration of a long body; that of others is smaller.
+  const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);
   if (p.mass < lightest * gyration * gyration * gyration)
     inertia->warn(
         fmt::format("is this meant? {:.3g} kg with so much inertia reaches over some {:.3g} m; inertias are in "

@@ -106,7 +106,7 @@ void check_cut(const YamlValue& cut, double density, const std::vector<double>& 
     cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
 }
 
-/// Refuses a cut that is not in material: its mass is subtracted at any position.
+/// Refuses a cut that is not within material, because its mass would be subtracted all the same.
 void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& solids) {
   constexpr double whole = 0.999;
   for (const EmptyCut& empty : empty_cuts(solids)) {
@@ -160,7 +160,7 @@ MassProperties read_solids(const YamlValue& value) {
     value.fail(fmt::format("what is cut out leaves no mass: {:.6g} of {:.6g} kg", mass, solid_mass));
   for (std::size_t k = 0; k < solids.size(); ++k)
     if (solids[k].mass < 0) check_cut(value.at(k), read_solid(value.at(k)).density, densities);
-  // Solids with positive mass are first: no partial sum has zero mass.
+  // Solids with positive mass come first, so that no partial sum has zero mass.
   std::stable_partition(solids.begin(), solids.end(), [](const MassProperties& p) { return p.mass > 0; });
   MassProperties sum = solids.front();
   for (std::size_t k = 1; k < solids.size(); ++k) sum = sum + solids[k];

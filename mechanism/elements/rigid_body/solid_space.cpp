@@ -38,7 +38,7 @@ double density_at(const Vector3& x, const std::vector<PlacedSpace>& solids) {
   return density;
 }
 
-/// Returns the last solid before `but` in the list that is cut out at a point; -1: none.
+/// Returns the last of the solids before `but` that is cut out at a point; -1: none.
 int earlier_cut_at(const Vector3& x, const std::vector<PlacedSpace>& solids, std::size_t but) {
   for (std::size_t k = but; k-- > 0;)
     if (solids[k].density < 0 && solids[k].space.contains(solids[k].frame.R.transpose() * (x - solids[k].frame.x)))

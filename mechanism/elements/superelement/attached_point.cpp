@@ -21,7 +21,7 @@ AttachedPoint::AttachedPoint(const PointPlace& place, const SuperelementMotion& 
   m_.head<3>() = multiplier.head<3>();
   m_.tail<3>() = D_.transpose() * multiplier.tail<3>();
 
-  // The body's own accelerations are relative to free fall.
+  // The body's own accelerations are those relative to free fall.
   const Vector3 v_0 = motion.nu.head<3>(), Om = motion.nu.tail<3>();
   const Vector3 a_0 = motion.nu_rate.head<3>(), Om_rate = motion.nu_rate.tail<3>();
   const Vector3 w_u = R_0t * node.v, w_theta = R_0t * node.R * node.Omega;

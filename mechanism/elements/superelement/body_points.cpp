@@ -16,7 +16,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Returns the entry of the superelement that a point names.
+/// Returns the entry of the superelement that is named by a point.
 YamlValue element_of(const YamlValue& point, const std::optional<YamlValue>& elements) {
   const YamlValue value = point.at("element");
   const std::string name = value.text();
@@ -58,7 +58,7 @@ struct Attachment {
   std::array<bool, 6> residual{};
 };
 
-/// Returns the body, or the piece of it, that has the named point.
+/// Returns the body, or its piece, that contains the named point.
 Attachment attach_named(const std::vector<Component*>& pieces, const PointInFile& named) {
   for (Component* component : pieces) {
     auto& body = dynamic_cast<SuperelementBody&>(*component);
@@ -93,7 +93,7 @@ struct PointEntry {
   std::optional<PointInFile> named;
 };
 
-/// Returns whether a node has the rotation of the body: a moving node with fixed rotations only transmits forces.
+/// Returns whether a node follows the rotation of the body. A moving node with fixed rotations only transmits forces.
 bool tells_rotation(const Node& node) {
   const auto rotations = node.freedom.begin() + 3;
   const bool moves = std::count(node.freedom.begin(), rotations, Freedom::free) > 0;

@@ -13,7 +13,8 @@ double size_of(const double* strain) {
   return std::max({std::abs(e[0]), std::abs(e[2]), 2.0 / 3 * (e[0] - e[2])});
 }
 
-/// Returns the square of the tensor's norm, which no principal value and no two thirds of a difference of two exceeds.
+/// Returns the square of the tensor's norm. The norm is an upper bound of all principal values and of 2/3 of their
+/// differences.
 double square_norm(const double* strain) {
   const Eigen::Map<const Vector3> stretch(strain), shear(strain + 3);
   return stretch.squaredNorm() + 0.5 * shear.squaredNorm();

@@ -12,8 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Weight in the closest placement of an interface that determines it only in part (its free directions may be far
-/// away).
+/// Weight of an interface that only partly determines the closest placement; its free directions may be far from it.
 constexpr double partial_weight = 1e-3;
 
 /// Returns the rotation R that maximises tr(R^T M).
@@ -29,7 +28,7 @@ Matrix3 nearest_turn(const Matrix3& M) {
       const Matrix3 next = 0.5 * (R + Matrix3(R.inverse().transpose()));
       const double step = (next - R).norm();
       R = next;
-      if (step < last_step) return R;  // the error after a step is about its square
+      if (step < last_step) return R;  // the error of R is now about the square of the step
     }
   }
   const Eigen::JacobiSVD<Matrix3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -174,7 +173,8 @@ void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry)
     step.tail<3>() = turn_inverse * (gap.tail<3>() - lever_ * gap.head<3>());
     step.head<3>() = translation_inverse_ * gap.head<3>() - moved * step.tail<3>();
     if (!step.allFinite()) break;
-    // Newton's method converges from any nearby value; the problem is no longer linear for steps beyond half a radian.
+    // Newton's method converges from any nearby value. Steps are limited to half a radian, because the linearisation is
+    // invalid beyond it.
     const double angle = step.tail<3>().norm();
     if (angle > 0.5) step *= 0.5 / angle;
     geometry.frame.x += geometry.frame.R * step.head<3>();

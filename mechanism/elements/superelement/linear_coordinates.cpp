@@ -59,7 +59,7 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
       }
       step_ = sum_;
     } else {
-      // Beyond a zero of the determinant one q belongs to two eps, and this one would be wrong.
+      // Beyond a zero of the determinant two eps belong to one q, and this iteration would lead to the wrong one.
       if (!factorise()) break;
       factors_.solve(step_);
     }

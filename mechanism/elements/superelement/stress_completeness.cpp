@@ -9,8 +9,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double worth_a_word = 0.05;      // fraction of the stress above which the summary mentions it
-constexpr double enough_of_answer = 0.95;  // fraction of the modes in the held body's response
+constexpr double worth_a_word = 0.05;  // missing fraction of the stress above which the summary reports it
+// Below this share of the modes in the held body's response the report is a warning.
+constexpr double enough_of_answer = 0.95;
 
 }  // namespace
 

@@ -40,8 +40,8 @@ struct SuperelementBody::Workspace {
   }
 };
 
-/// One workspace for each thread that has evaluated the body at the same time; they are kept, so that only first
-/// evaluations allocate memory.
+/// One workspace for each thread that evaluates the body concurrently. They are kept, so that memory is allocated only
+/// once.
 class SuperelementBody::Workspaces {
  public:
   std::unique_ptr<Workspace> take() {

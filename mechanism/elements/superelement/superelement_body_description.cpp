@@ -63,7 +63,7 @@ void SuperelementBody::describe_attachments(Description& description) const {
     description.add_line(
         "its own strains are small: errors below 0.1 % up to 0.2 rad between interfaces; cut into pieces what bends "
         "more");
-  constexpr std::size_t most = 12;  // free ties have one for each node of a surface
+  constexpr std::size_t most = 12;  // free ties have an interface for each node of a surface
   for (std::size_t k = 0; k < std::min(interfaces_.size(), most); ++k)
     description.add_line(fmt::format("interface '{}' on node {}", interfaces_[k], description.node(nodes_[k])));
   if (interfaces_.size() > most) description.add_line(fmt::format("and {} more", interfaces_.size() - most));

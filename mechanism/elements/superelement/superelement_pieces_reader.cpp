@@ -26,7 +26,7 @@ CutBody read_file(const YamlValue& entry, const std::string& path) {
   }
 }
 
-/// A ratio is that of the first mode of the whole body.
+/// Reads damping. A ratio is that of the first mode of the whole body.
 MatrixX read_damping(const YamlValue& damping, const Superelement& piece, const CutBody& body) {
   const auto ratio = damping.find("ratio");
   if (!ratio || damping.has("rayleigh")) return read_superelement_damping(damping, piece);
@@ -36,7 +36,8 @@ MatrixX read_damping(const YamlValue& damping, const Superelement& piece, const 
   return damping_of_piece(piece, ratio->number(), body.free_frequencies[0]);
 }
 
-/// Returns all interfaces, each once, the patterns of all pieces, and the mass properties, for the readers.
+/// Returns one superelement for the readers, with the interfaces of the whole body, the load patterns of all pieces,
+/// and the mass properties.
 Superelement whole_of(const CutBody& body) {
   Superelement whole = assembled(body.pieces);
   whole.name = body.name;
@@ -56,7 +57,7 @@ std::vector<int> nodes_of(const Superelement& piece, const Superelement& whole, 
   return result;
 }
 
-/// Results of pieces are stored under their own names, which no other entry may have.
+/// Checks that no other entry has the name of a piece, because results of pieces are stored under their names.
 void check_name_later(const Entry& piece, const YamlValue& entry, Model& model) {
   model.when_read(Model::Stage::connections, [piece, entry, &model] {
     if (model.members_of(piece).size() > 1)

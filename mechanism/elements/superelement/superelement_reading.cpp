@@ -79,8 +79,8 @@ StartMotion rigid_motion_of(const Model& model, const RigidlyFollowed& followed,
     normal.bottomRightCorner<3, 3>() += area * Matrix3::Identity();
     right.tail<3>() += area * node.omega;
   }
-  // About an axis that no node determines (a line of points) the rotation is zero; everything else is refined to
-  // rounding.
+  // The rotation is zero about an axis that the nodes do not determine (because they are on one line). The refinement
+  // reduces the error of all other components to rounding.
   constexpr double little = 1e-12;
   Matrix6 regular = normal;
   regular.bottomRightCorner<3, 3>() += little * area * Matrix3::Identity();

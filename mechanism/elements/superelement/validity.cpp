@@ -10,14 +10,14 @@
 namespace bielle::mechanism {
 namespace {
 
-// Error of displacements divided by theta^2, for bending by interfaces; the second is for rotations determined by lines
-// only, since rotations do not act.
+// Error of displacements divided by theta^2, for bending by interfaces. The second value is used if rotations are
+// determined by lines only, since no rotations act then.
 constexpr double error_per_square = 0.006, error_of_lines = 0.05;
-constexpr double error_of_free_end = 0.4, error_between = 0.03;  // divided by theta, bent in the modes
+constexpr double error_of_free_end = 0.4, error_between = 0.03;  // error divided by theta, for bending in the modes
 constexpr double worth_a_line = 1e-3, worth_a_warning = 5e-3;
 constexpr double much_strain = 0.02;
-constexpr double turn_over_chord = 1.5;  // for a bar under a force at its end: theta L / deflection
-constexpr std::size_t most_chords = 12;  // largest number of points between which chords are compared
+constexpr double turn_over_chord = 1.5;  // theta L / deflection of a bar under a force at its end
+constexpr std::size_t most_chords = 12;  // chords are compared between at most this number of points
 
 bool turns(const BodyPoint& point) { return point.rotation.kind() == InterfaceRotation::Kind::vector; }
 
@@ -26,13 +26,13 @@ double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.c
 /// Returns the angle of a rotation without its axis.
 double angle_of(const Matrix3& R) { return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0)); }
 
-/// Rotation from body axes to inertial ones, as given by the interface.
+/// Returns the rotation from body axes to inertial ones, as given by the interface.
 Matrix3 axes_of(const BodyPoint& point, const LocalState& state, std::size_t k) {
   return state.node(static_cast<int>(k)).R * point.R_ref.transpose();
 }
 
-/// Returns the rotation of the line from an interface to one whose rotations do not all act, as seen from the first
-/// one.
+/// Returns the rotation of the line from an interface to another one whose rotations are not all connected, in the axes
+/// of the first interface.
 double turn_of_chord(const std::vector<BodyPoint>& points, const LocalState& state, std::size_t from, std::size_t to) {
   const Vector3 drawn = points[to].X - points[from].X;
   const Vector3 now = state.node(static_cast<int>(to)).x - state.node(static_cast<int>(from)).x;
@@ -49,7 +49,8 @@ double turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& st
                   angle_between(points[a].X - points[at].X, points[b].X - points[at].X));
 }
 
-/// This is used if no interface has a rotation that can be compared with another one.
+/// Returns the largest change of an angle between such lines. It is used if no two interfaces have rotations that can
+/// be compared.
 double largest_turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& state) {
   const std::size_t count = std::min(points.size(), most_chords);
   double largest = 0;
@@ -61,8 +62,8 @@ double largest_turn_of_chords(const std::vector<BodyPoint>& points, const LocalS
   return largest;
 }
 
-/// Returns whether the interfaces are at one end of the body, or in its middle: the largest distance between two is
-/// less than half of a bar's length, which is the root of 12 times its radius of gyration.
+/// Returns whether all interfaces are at one end of the body, or in its middle: their largest distance is less than
+/// half the length of a bar with the same radius of gyration, L = sqrt(12) k.
 bool leave_an_end_free(const std::vector<BodyPoint>& points, double gyration) {
   double largest = 0;
   for (const BodyPoint& a : points)

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double transition = 0.02;  // relative to the shorter neighbouring stage, half of it before its end
+constexpr double transition = 0.02;  // length of a transition, relative to the shorter adjacent stage
 
 }  // namespace
 

@@ -89,11 +89,11 @@ void Cylinder::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.damping = geometry_.friction || geometry_.stop_damping > 0;
-  declaration.mass = tank_.has_value();  // for the row of a start that follows from the load
+  declaration.mass = tank_.has_value();  // the row of a start that follows from the load contains accelerations
   declaration.starts_by_state = tank_.has_value();
   declaration.memory = {0, 0};
   if (geometry_.stop_stiffness == 0) return;
-  declaration.kinks = true;  // at zero total force of a stop
+  declaration.kinks = true;  // the force of a stop has a kink at zero
   declaration.event_functions = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
 }
 
@@ -199,7 +199,7 @@ void Cylinder::add_energy(const LocalState& state, Energy& energy) const {
       energy.input += (chamber_pressure(state, k) - ambient_) * chambers_[k].space.at(l.value).V_l * rate;
   const Stop end = stop(state, l.value, rate);
   if (end.side == 0) return;
-  // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
+  // The damper dissipates the energy of a spring that it prevents from pushing.
   energy.elastic += 0.5 * geometry_.stop_stiffness * end.way * end.way;
   energy.dissipation += (end.push - geometry_.stop_stiffness * end.way) * end.side * rate;
 }
@@ -212,7 +212,7 @@ void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
   std::vector<double> p(chambers_.size(), *tank_);
   p[0] = chamber_pressure(state, 0);
   if (p[0] < *tank_ && chambers_.size() > 1) {
-    // The load pulls: the other chamber carries it.
+    // The load pulls, and the pressure of the other chamber carries it.
     const double ratio = -chambers_[0].space.at(l).V_l / chambers_[1].space.at(l).V_l;
     p[1] += (*tank_ - p[0]) * ratio;
     p[0] = *tank_;
@@ -244,7 +244,7 @@ void Cylinder::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX>
   values[1] = geometry_.shortest - l;
 }
 
-// This is the same as for stops of joints (joints/actions/joint_stop.cpp).
+// Stops of joints follow the same rule (joints/actions/joint_stop.cpp).
 void Cylinder::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> memory) const {
   if (geometry_.stop_stiffness == 0) return;

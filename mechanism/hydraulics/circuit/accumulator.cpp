@@ -50,7 +50,7 @@ double Accumulator::side(const LocalState& state) const {
 Accumulator::Space Accumulator::space(double p, double side) const {
   if (side == empty) return {};
   const double P0 = absolute(precharge_), P = absolute(p), n = exponent_, V0 = gas_volume_;
-  if (p < precharge_) {  // the tangent
+  if (p < precharge_) {  // the gas law is continued by its tangent
     const double V_p = V0 / (n * P0);
     return {V_p * (p - precharge_), V_p, 0.5 * V_p * (P * P - P0 * P0)};
   }
@@ -80,8 +80,8 @@ void Accumulator::add_energy(const LocalState& state, Energy& energy) const {
   energy.elastic += now.work - absolute(volume_.fluid().ambient) * now.V;
 }
 
-// A filled accumulator is left a little below the precharge: the pressure that follows from the other side's equations
-// is then beyond rounding errors on the side that has begun.
+// A filled accumulator becomes empty a little below the precharge. The pressure that follows from the equations of the
+// new side is then on this side in spite of rounding errors.
 double Accumulator::way_to_empty(const LocalState& state) const {
   constexpr double margin = 1e-8;
   return pressure(state) - precharge_ + (state.memory()[0] == empty ? 0 : margin * absolute(precharge_));

@@ -33,7 +33,8 @@ Fluid::Ratio Fluid::ratio(double p) const {
   return {E + cavity, -E / bulk_modulus - cavity * (0.5 / P + 1 / p_v)};
 }
 
-// Newton's method for ln v, which is linear in p for oil, and in ln p for air; bounds on both sides are maintained.
+// Newton's method is applied to ln v, which is linear in p for oil and in ln p for air. Bounds on both sides are
+// maintained.
 double Fluid::pressure_of(double v, double guess) const {
   const double shift = ambient == 0 ? atmosphere : 0, wanted = std::log(v);
   const auto excess = [&](double P, double& slope) {
@@ -60,7 +61,8 @@ double Fluid::pressure_of(double v, double guess) const {
 }
 
 double Fluid::work(double p) const {
-  // Pressures of trial states and of junctions may be negative: there is no fluid that could do more work.
+  // Trial states and junctions may have negative pressures. The work is bounded there, because no fluid is left to do
+  // more.
   const double P_a = absolute(ambient), away = std::max(p - ambient, least - P_a), B = bulk_modulus;
   double h = -(1 - air_fraction) * B * std::exp(-(P_a - atmosphere) / B) * std::expm1(-away / B);
   if (air_fraction > 0) {

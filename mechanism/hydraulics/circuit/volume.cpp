@@ -29,7 +29,7 @@ double Volume::room_at(double pressure) const {
 double Volume::drawn() const { return drawn_ + room_at(start_.value_or(fluid().ambient)); }
 
 void Volume::declare(Declaration& declaration) const {
-  // If the pressure follows from the load, a negative value means that the fluid is not known yet.
+  // A pressure that follows from the load is not known yet; this is marked by negative values of fluid and pressure.
   const double drawn = this->drawn(), begin = start_ ? fluid_at(*start_, drawn) : -drawn;
   Declaration::Scalar fluid_content{"fluid", "m^3", begin};
   fluid_content.scale = drawn * typical_pressure / fluid().bulk_modulus;
@@ -43,7 +43,7 @@ void Volume::declare(Declaration& declaration) const {
   declaration.first_order = {fluid_content, pressure, space};
   declaration.stiffness = declaration.damping = true;
   declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
+  declaration.memory = {0};  // tells whether the volume has begun
 }
 
 double Volume::pressure_by_state(const LocalState& own) const {
@@ -94,8 +94,8 @@ void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   K(space_row, pressure_row) -= compliance_;
 }
 
-// The space is that of the present pressure, or will be when the equations are solved: its pressure-dependent part is
-// replaced by that at the given pressure. Pressure and space then follow from their equations.
+// The space is computed for the present pressure, and its pressure-dependent part is then replaced by that at the given
+// one. Pressure and space follow from their equations when these are solved.
 void Volume::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
   if (!start_ || state.memory()[0] != 0) return;
   const double at_start = space(state) - room_at(pressure(state)) + room_at(*start_);

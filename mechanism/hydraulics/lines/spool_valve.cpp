@@ -59,7 +59,7 @@ void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowDeriva
   of_opening->prepare(state.slots().size());
   const double y = edge.direction * spool_.opening(state, *of_opening), range = 1 - overlap_;
   Opening open = edge_opening((y - overlap_) / range, smoothing);
-  // A spool that oscillates beyond its full opening does not open more.
+  // The opening is limited to full opening, beyond which a spool may oscillate.
   const Opening beyond = edge_opening((y - overlap_) / range - 1, smoothing);
   open = {open.value - beyond.value, open.slope - beyond.slope};
   if (open.value == 0) return;
@@ -89,7 +89,7 @@ void SpoolValve::begin_branch(const LocalState& state, std::span<const int> /*cr
 
 void SpoolValve::calc_time_formulas(const LocalState& state, std::span<double> values) const {
   calc_time_formula(spool_.command_formula(), state, values);
-  if (OpeningLock::is_locked(state)) values[0] = 0;  // it has no effect
+  if (OpeningLock::is_locked(state)) values[0] = 0;  // a locked valve does not follow its command
 }
 
 std::vector<OutputField> SpoolValve::own_fields() const { return {{"opening", {}, "-", "share of the full opening"}}; }

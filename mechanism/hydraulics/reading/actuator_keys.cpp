@@ -16,7 +16,7 @@ KeyForms piston_areas_forms() {
   return {tuple({{extending}, {number("m^2").non_negative()}}), list_of(1, extending)};
 }
 
-/// Lists of a number for each chamber.
+/// Returns the form of lists of a number for each chamber.
 KeyForms for_each_chamber(const char* unit) {
   const KeyForm value = number(unit).non_negative();
   return {list_of(2, value), list_of(1, value)};

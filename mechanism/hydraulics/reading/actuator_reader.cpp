@@ -51,7 +51,7 @@ class ActuatorReader {
   }
 
  private:
-  /// Refuses keys of a circuit of its own, or of chambers of its own, if they belong to a shared circuit.
+  /// Refuses keys of an own circuit, or of own chambers, for a cylinder in a shared circuit.
   void check_circuit() {
     if (!entry_.has("ports")) return;
     std::vector<std::string> own = keys::names_of(fluid_keys());
@@ -271,7 +271,7 @@ class ActuatorReader {
     cylinder.balance(fluid_.ambient);
   }
 
-  /// The cushions are between its chambers and the places of the circuit.
+  /// Reads a cylinder with cushions, which are between its chambers and the places of the circuit.
   void read_cushioned(const std::array<const PressureNode*, 2>& places) {
     const std::array<Volume*, 2> volumes = add_chambers();
     Cylinder& cylinder = add_cylinder({volumes[0], volumes[1]});
@@ -354,7 +354,8 @@ class ActuatorReader {
       supply->fail("leads nowhere: give a `valve`");
     }
     if (relief) {
-      // The pressure of a volume filled by a pump of constant flow is limited there; otherwise that of the chambers is.
+      // A pump of constant flow fills its own volume, whose pressure is limited; otherwise the pressures of the
+      // chambers are limited.
       if (pump_volume)
         add_relief(part("relief"), *relief, *pump, *tank, fluid_, circuit(part("relief")), model_);
       else

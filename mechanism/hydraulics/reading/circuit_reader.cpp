@@ -101,7 +101,7 @@ class CircuitReader {
  private:
   Entry own(const std::string& name) const { return {Section::hydraulics, name}; }
 
-  /// Names are those of results: each may only occur once in all of the hydraulics.
+  /// Reads each entry of a section. Names are those of results: each may only occur once in all of the hydraulics.
   template <class Read>
   void each(const char* key, const Read& read) {
     const auto entries = section_.find(key);
@@ -125,8 +125,8 @@ class CircuitReader {
         if (entry.has("pressure") && entry.has("to")) given_.emplace(entry.at("to").text(), name);
   }
 
-  /// Junctions at the end of pipes contain the ends of their fluid, whose inertia a junction without volume could not
-  /// stop.
+  /// Records the junctions at the ends of pipes. They contain the last part of the pipes' fluid, because a junction
+  /// without volume could not stop its inertia.
   void note_ends_of_pipes() {
     const auto lines = section_.find("lines");
     if (!lines) return;
@@ -237,10 +237,10 @@ class CircuitReader {
   YamlValue section_;
   Model& model_;
   Fluid fluid_;
-  std::map<std::string, std::string> taken_;     ///< path of each name
+  std::map<std::string, std::string> taken_;     ///< path of the entry that uses each name
   std::map<std::string, std::string> given_;     ///< places of given pressure, with their supplies
   std::map<std::string, std::string> supplied_;  ///< those that have been created
-  /// A place at the end of pipes.
+  /// A place at the end of one or more pipes.
   struct EndOfPipes {
     std::string pipe;   ///< name of the first pipe
     double pressure;    ///< start pressure of its fluid [Pa]

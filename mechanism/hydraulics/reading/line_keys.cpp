@@ -8,7 +8,7 @@ namespace {
 
 using namespace keys;
 
-/// Keys of valves whose opening follows the pressure.
+/// Returns the keys of valves whose opening follows the pressure.
 std::vector<Key> poppet_keys() {
   return joined({valve_area_keys(),
                  {{"range", number("Pa").positive(), computed("a tenth of `pressure`, or 0.5 bar without it"),

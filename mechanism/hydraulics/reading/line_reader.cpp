@@ -122,9 +122,9 @@ void read_valve(const LineEntry& line) {
                   line.data, line.own(), line.model);
 }
 
-// Adds volumes of fluid along the pipe, and segments between them. A place with its own pressure is at the end of the
-// first cell, half a segment from its middle; a place that is only an end of pipes (a junction) contains half a cell
-// itself.
+// Adds volumes of fluid along the pipe, and segments between them. If the place at an end has its own pressure, the
+// first cell ends there, and its middle is half a segment away. A place that is only an end of pipes (a junction)
+// contains half a cell itself.
 void read_pipe(const LineEntry& line) {
   const YamlValue& data = line.data;
   const double length = data.at("length").number(), diameter = data.at("diameter").number();

@@ -60,7 +60,7 @@ void Drive::add_break_points(std::vector<double>& times) const {
 
 void Drive::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (!release_measure_) return;
-  // The event can occur only once: afterwards the value stays on its side.
+  // The event occurs only once: after the release the value stays on its side.
   values[0] =
       released(state) ? state.memory()[0] : release_measure_->value(state.of(release_reference_)) - release_value_;
 }
@@ -75,7 +75,7 @@ void Drive::begin_branch(const LocalState& state, std::span<const int> crossed, 
   }
 }
 
-/// This only occurs if steps do not end on break points.
+/// This is only possible if steps do not end on break points.
 bool Drive::leaves_branch(const LocalState& state) const {
   return can_release() && !release_measure_ && state.memory()[0] == 0 && state.time() >= release_time_;
 }

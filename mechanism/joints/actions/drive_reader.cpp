@@ -24,7 +24,8 @@ namespace {
 const std::vector<std::string> drive_laws = {"angle", "rate",  "torque", "displacement",
                                              "speed", "force", "pid",    "motor"};
 
-/// Whether a law stands in a map of its own, with the coordinate, and may act on a coordinate of any kind.
+/// Returns whether a law is given by a map of its own that contains the coordinate; such a law may act on a coordinate
+/// of any kind.
 bool is_nested(const std::string& law) { return law == "pid" || law == "motor"; }
 
 bool is_turning(const std::string& law) { return law == "angle" || law == "rate" || law == "torque"; }
@@ -44,7 +45,8 @@ std::string find_law(const YamlValue& entry) {
   return law;
 }
 
-/// Returns a clause on the coordinates of a joint, none of which the laws of the other kind can drive, and their laws.
+/// Returns a clause that names a joint's coordinates and the laws that can drive them, for a law of the other kind,
+/// which can drive none of them.
 std::string coordinates_and_laws(const Joint& joint, bool turning) {
   if (joint.coordinates().empty()) return "it has no coordinate";
   std::vector<std::string> names;
@@ -77,7 +79,7 @@ std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, cons
                                     : names.front());
 }
 
-/// Whether a drive other than by a force acts on a coordinate.
+/// Returns whether a coordinate has a drive other than by a force, which permits no second one.
 bool is_driven_alone(const Joint& joint, std::size_t coordinate, const Model& model) {
   const std::vector<Component*> components = model.components_of({Section::joints, joint.name()});
   return std::any_of(components.begin(), components.end(), [&](const Component* component) {
@@ -114,7 +116,7 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
   if (const auto event = value.find("event")) {
     for (const char* key : {"crosses", "direction"})
       if (value.has(key)) value.at(key).fail("belongs to `when`; an event has its own");
-    // Events are read with the formulas, after the drives: the action is deferred once more.
+    // Events are read in this stage as well, but later: the action is therefore deferred once more.
     model.when_read(Model::Stage::formulas, [event = *event, &drive, &model] {
       model.when_read(Model::Stage::formulas, [event, &drive, &model] {
         const MeasureEvent& found = measure_event_named_by(event, model);
@@ -163,7 +165,7 @@ std::unique_ptr<Drive> make_force(const std::string& name, const YamlValue& entr
   return drive;
 }
 
-/// Whether the law is `torque: sought`.
+/// Returns whether the law is `torque: sought`.
 bool is_sought(const YamlValue& law) { return law.is_scalar() && law.text() == "sought"; }
 
 std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& entry, const Joint& joint,

@@ -14,15 +14,15 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A write whose component is known: the formulas are read later.
+/// A write whose component is known. Its formula is read later.
 struct PlannedWrite {
   const Component* component;
   int place;
   double constant;
-  std::optional<YamlValue> formula;  ///< in place of the constant
+  std::optional<YamlValue> formula;  ///< takes the place of the constant
   bool switches;
-  std::string description;          ///< empty: another write of the action says it
-  const Lockable* locks = nullptr;  ///< its present value takes the place of the constant
+  std::string description;          ///< empty: it is part of another write's description
+  const Lockable* locks = nullptr;  ///< locks at the present value, which takes the place of the constant
 };
 
 struct PlannedEvent {

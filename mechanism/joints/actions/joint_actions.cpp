@@ -22,7 +22,7 @@ namespace {
 /// names.
 using ByKey = std::map<std::string, YamlValue>;
 
-/// Whether a map contains names of coordinates, or is the value of the only one.
+/// Returns whether a map contains names of coordinates; otherwise it is the value of the only coordinate.
 bool names_coordinates(const YamlValue& value, const std::vector<std::string>& names) {
   return value.is_map() &&
          std::any_of(names.begin(), names.end(), [&](const std::string& name) { return value.has(name); });
@@ -73,7 +73,7 @@ StopLaw read_stop_range(const YamlValue& given, Moves moves) {
   const YamlValue entry = given.keyed(stop_keys(moves));
   const YamlValue range = entry.at("range");
   if (!range.is_sequence() || range.size() != 2) range.fail("expected [lower, upper]");
-  // One end may be open: `~`.
+  // One end may be open (`~`).
   const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   StopLaw stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").number(), entry.at("damping").number()};
@@ -97,7 +97,7 @@ LockTimes read_lock_times(const YamlValue& given, Moves moves) {
   return times;
 }
 
-/// Reads the events that close and open a lock in place of times.
+/// Reads the events that close and open a lock instead of times.
 void read_lock_events(const YamlValue& given, Moves moves, JointLock& lock, Model& model) {
   if (!given.is_map()) return;
   const YamlValue entry = given.keyed(lock_keys(moves));

@@ -86,7 +86,7 @@ bool JointLock::is_due(const LocalState& state) const {
   return !EventRecord::has_happened(end) || EventRecord::time(end) < from;
 }
 
-/// This only occurs if steps do not end on break points.
+/// This is only possible if steps do not end on break points.
 bool JointLock::leaves_branch(const LocalState& state) const {
   const double status = state.memory()[0];
   return status != released && is_wanted(state, state.memory()[command_place]) != (status == locked);
@@ -98,7 +98,7 @@ void JointLock::begin_branch(const LocalState& state, std::span<const int> cross
     memory[0] = released;
     command = 0;
   }
-  if (memory[0] == released && command > 0) memory[0] = open;  // an event closes it again
+  if (memory[0] == released && command > 0) memory[0] = open;  // an event may close it again
   if (memory[0] == released) return;
   const bool now = is_wanted(state, command);
   if (now && memory[0] == open) memory[1] = start_ ? *start_ : value(state).value;

@@ -45,7 +45,7 @@ void JointSpring::add_tangent(const LocalState& state, LocalTangent& tangent) co
   }
   if (tangent.wants_C) tangent.C.dense().block(at, at, n, n) += law.N_v * jet.w() * jet.w().transpose();
   if (law_.reads_state()) {
-    const VectorX w = jet.w();  // measures may belong to the same joint
+    const VectorX w = jet.w();  // a copy, because measures may belong to the same joint and overwrite its buffer
     law_.add_measures(state, x, v, w, at, tangent);
   }
 }

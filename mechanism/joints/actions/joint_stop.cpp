@@ -12,7 +12,7 @@ namespace bielle::mechanism {
 void JointStop::declare(Declaration& declaration) const {
   declare_references(declaration);
   declaration.damping = law_.damping > 0;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
   declaration.memory = {0};  // side of the contact
   law_.declare_events(coordinate().name + " at its upper stop", coordinate().name + " at its lower stop", declaration);
 }

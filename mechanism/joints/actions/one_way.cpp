@@ -64,7 +64,8 @@ void OneWay::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> v
   if (state.memory()[has_moved] != 0) {
     values[closes] = rule_.pitch > 0 ? clearance(state, q) : v - limit;
   } else {
-    // If it has just opened, its velocity is rounding, or an error of the scheme: the acceleration decides.
+    // Just after opening, the velocity is only a rounding error, or an error of the scheme. The acceleration is
+    // therefore included.
     const double a = rule_.sense * calc_kept_rates(state).second;
     values[closes] = std::max(v + limit, a + acceleration_at_rest(state.of(0), 1));
     // A ratchet that leaves its multiple may come back within the step.
@@ -78,7 +79,7 @@ void OneWay::hold_at(double value, Eigen::Ref<VectorX> memory) const {
   memory[has_moved] = 0;
 }
 
-/// Lets it be free at a state, from which on it engages.
+/// Sets it free at a state; it may engage from there on.
 void OneWay::activate(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const double q = value(state).value;
   memory[holding] = 0;
@@ -138,8 +139,7 @@ void RigidOneWay::declare(Declaration& declaration) const {
   declaration.multipliers.push_back(row);
 }
 
-/// Computes the force that holds, or the motion if other constraints hold the coordinate as well: there is no force
-/// then.
+/// The coordinate opens by its force. If other constraints hold it as well, there is no force, and its motion decides.
 void RigidOneWay::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   OneWay::calc_event_functions(state, values);
   values[takes_over] = -1;
@@ -177,7 +177,7 @@ void ElasticOneWay::declare(Declaration& declaration) const {
   opening.begins_on = 1;  // a motion may begin without elongation
   declare_one_way(declaration, opening);
   declaration.damping = damping_ > 0;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
 }
 
 ElasticOneWay::Contact ElasticOneWay::contact(const LocalState& state, double q, double rate) const {

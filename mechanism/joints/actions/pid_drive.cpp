@@ -43,7 +43,7 @@ void PidDrive::declare(Declaration& declaration) const {
     filtered.scale = 1;
     declaration.first_order.push_back(std::move(filtered));
     declaration.starts_by_state = true;
-    declaration.memory.push_back(0);  // whether it has begun
+    declaration.memory.push_back(0);  // tells whether the controller has begun
   }
 }
 

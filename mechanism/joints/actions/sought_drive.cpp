@@ -29,7 +29,7 @@ class LargestEffort final : public StepRecorder {
   }
   std::vector<ResultArray> results() override { return {}; }
   std::string summary() override {
-    if (states_ < 2) return {};  // nothing was sought, for example for modes about a state
+    if (states_ < 2) return {};  // no effort was sought, for example in modes about a state
     return fmt::format("  drive '{}' takes up to {:.6g} {} (at t = {:.6g} s)\n", drive_.name(), largest_,
                        drive_.coordinate().force_units(), time_);
   }

@@ -26,7 +26,7 @@ void StillWatch::exchange(Archive& archive) {
 }
 
 std::string StillWatch::summary() {
-  // Any real part deforms by more: steel of a length of 1 m, at a thousandth of its strength, by 1e-6 m.
+  // Any real part deforms by more: steel of 1 m length at a thousandth of its strength deforms by 1e-6 m.
   constexpr double still = 1e-9;  // [m] or [rad]
   if (states_ < 2 || most_force_ == 0 || farthest_ > still) return {};
   return fmt::format(

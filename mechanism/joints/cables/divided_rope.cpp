@@ -35,7 +35,7 @@ void DividedRope::add(const std::vector<std::vector<std::size_t>>& sections, boo
 }
 
 void DividedRope::add_slip(std::size_t place) {
-  double length = 0;  // sum over the ways to the next places
+  double length = 0;  // sum of the distances to the adjacent places
   const std::size_t count = path_.nodes.size();
   const auto centre = [&](std::size_t k) -> Vector3 { return (path_.drawn[k] * path_.pulleys[k].on_node).x; };
   for (const std::size_t other : {(place + count - 1) % count, (place + 1) % count})
@@ -52,7 +52,7 @@ const RopeSection& DividedRope::add_section(const std::vector<std::size_t>& plac
     part.names.push_back(path_.names[k]);
     part.pulleys.push_back(path_.pulleys[k]);
     part.drawn.push_back(path_.drawn[k]);
-    // Turns on an end belong to the wrap of its pulley.
+    // Turns at an end of the part are counted by the wrap of its pulley.
     part.turns.push_back(k == places.front() || k == places.back() ? 0 : path_.turns[k]);
   }
   const RopeSection::EndSlips slips = {slips_[places.front()], slips_[places.back()]};

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Angle of the straight rope between two pulleys, about the axis of `axes`.
+/// Returns the angle of the straight rope between two pulleys, about the third axis of `axes`.
 double direction_of_span(const Matrix3& axes, const Frame& from, double from_radius, const Frame& to,
                          double to_radius) {
   const Vector3 d = axes.transpose() * (to.x - from.x);
@@ -86,7 +86,7 @@ double RopeCourses::clearance(std::span<const Frame> at, std::span<const RopePla
   if (!found.exists) return rho;
   if (!found.within()) return std::max(found.to_end - rho, least);
   const double clear = sense * found.s - rho;
-  // A pulley that overlaps an end of the rope is not touched.
+  // A pulley that overlaps an end of the rope counts as not touched.
   const bool turns = !overlap(at, places, place, sense, neighbour(places, place, -1)) &&
                      !overlap(at, places, place, sense, neighbour(places, place, 1));
   return turns ? clear : std::max(clear, least);
@@ -99,7 +99,7 @@ double RopeCourses::side(std::span<const Frame> at, std::span<const RopePlace> p
 }
 
 void RopeCourses::settle(std::span<const Frame> at, std::span<RopePlace> places) const {
-  const int most = 4 * last() + 4;  // each place leaves and returns at most; further changes are rounding
+  const int most = 4 * last() + 4;  // each place leaves and returns at most once; further changes are rounding
   for (int k = 0; k < most; ++k) {
     int changed = -1;
     double worst = -just_touching;
@@ -138,8 +138,8 @@ std::vector<RopePlace> RopeCourses::as_drawn(std::span<const Frame> at, const st
     for (int k = 1; k < last(); ++k) {
       RopePlace& place = places[static_cast<std::size_t>(k)];
       if (!may_leave(k) || !touches(place)) continue;
-      place.wrap = wrap(at, places, k, M_PI);                     // less than a turn
-      if (place.wrap > 2 * M_PI - just_touching) place.wrap = 0;  // it just touches
+      place.wrap = wrap(at, places, k, M_PI);                     // this wrap is less than a turn
+      if (place.wrap > 2 * M_PI - just_touching) place.wrap = 0;  // the rope just touches
       if (place.wrap <= largest) continue;
       const RopePlace touched = place;
       place = {0, touched.sense};
@@ -158,7 +158,7 @@ std::vector<RopePlace> RopeCourses::as_drawn(std::span<const Frame> at, const st
     RopePlace& place = places[k];
     if (!touches(place)) {
       place = {place.wrap, 0};
-      place.wrap = wrap(at, places, static_cast<int>(k), 0);  // at its present clearance
+      place.wrap = wrap(at, places, static_cast<int>(k), 0);  // the wrap at the present clearance
     }
     place.wrap += 2 * M_PI * turns[k];
   }

@@ -9,7 +9,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Resistance to slip, relative to the stiffness of the rope: it tells pulleys apart that slip at once.
+/// Resistance to slip, relative to the stiffness of the rope. It makes the slips of pulleys unique that slip at the
+/// same time.
 constexpr double hardening = 1e-9;
 
 }  // namespace
@@ -45,7 +46,7 @@ const RopeFriction::Sides& RopeFriction::calc_sides(const LocalState& state, int
   return sides;
 }
 
-// The pull of the tight side has no limit at zero: the equation then has a slope by the slip at each state.
+// The pull of the tight side has no limit at zero, so that the equation has a slope by the slip at each state.
 double RopeFriction::excess(const Sides& sides, int towards) {
   return sides.reduction * sides.stretch[towards].pull - sides.stretch[1 - towards].tension;
 }
@@ -62,9 +63,9 @@ double RopeFriction::stiffness(const LocalState& state, const Sides& sides) cons
   return stiffness(state, sides, 0) + stiffness(state, sides, 1);
 }
 
-/// Returns the factor on the equation of a slipping rope. The tension of the other side begins to grow with a larger
-/// slope than that by which friction reduces the tight one. A step of Newton's method that passes this kink would
-/// increase the residual, and be shortened, although the next one finds the solution.
+/// Returns the factor on the equation of a slipping rope. When the other side becomes taut, its tension grows with a
+/// larger slope than that by which friction reduces the tight side's. Without the factor, a step of Newton's method
+/// beyond this kink would increase the residual, and would be shortened, although the next step finds the solution.
 double RopeFriction::scale(const Sides& sides, int towards) {
   return sides.stretch[1 - towards].taut ? 1 : 1 / sides.reduction;
 }
@@ -76,7 +77,7 @@ double RopeFriction::resistance(const LocalState& state) const {
   return hardening * stiffness_ + viscosity_ * RopeSlip::per_time(slip);
 }
 
-/// Returns the median of the three branches.
+/// Returns the side towards which the rope slips, -1 if it sticks: its equation is the median of the three branches.
 int RopeFriction::slips_towards(const LocalState& state, const Sides& sides) const {
   const LocalState slip = slip_of(state);
   if (!RopeSlip::may_change(slip) || slip.held(0)) return -1;
@@ -195,12 +196,12 @@ void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const double rate = RopeSlip::rate(slip_of(state)).value;
   const double power =
       (after.tension - before.tension) * rate + (after.strain_energy - before.strain_energy) * strain_flow(sides, rate);
-  energy.input += power;  // the power that the sections give away by the slip
+  energy.input += power;  // the power that the sections lose by the slip
   energy.dissipation += power;
 }
 
-/// Positive if the rope slips in the present step, or slipped in the last one at its end. At a slipping side the excess
-/// is nearly zero; if it sticks there is no increment.
+/// Positive if the rope slips in the present step, or slipped at the end of the last one. The excess is nearly zero at
+/// a slipping side; a sticking rope has no increment of slip.
 void RopeFriction::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const Sides& sides = calc_sides(state);
   const double slipped = std::abs(RopeSlip::last_change(slip_of(state)));

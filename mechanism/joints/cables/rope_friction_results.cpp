@@ -20,7 +20,7 @@ std::vector<OutputField> RopeFriction::output_fields() const {
       {"friction", shape, "N", "tension after each pulley with friction less that before it"},
       {"friction_limit", shape, "N", "largest friction at the smaller of the two tensions"},
       {"wrap", shape, "rad", "angle by which the rope is wound on each pulley with friction"}};
-  for (OutputField& field : fields) field.summed = true;  // each pulley fills its own place
+  for (OutputField& field : fields) field.summed = true;  // each pulley writes its own value
   return fields;
 }
 

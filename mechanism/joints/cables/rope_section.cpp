@@ -109,8 +109,8 @@ void RopeSection::for_each_slip(const LocalState& state, const Act& act) const {
     if (slip_references_[end] >= 0) act(end, slip_at(state, end), end == last_end ? 1.0 : -1.0);
 }
 
-/// Returns whether the section is stretched: by its elongation while a motion begins, whose slip decides it, then by
-/// memory.
+/// Returns whether the section is stretched. The elongation decides in statics and while a motion begins, the memory
+/// afterwards.
 bool RopeSection::is_stretched(const LocalState& state, double E) const {
   bool begins = state.environment().statics;
   for_each_slip(state, [&](End, const LocalState& slip, double) { begins = begins || !RopeSlip::has_begun(slip); });
@@ -358,7 +358,7 @@ void RopeSection::calc_event_functions(const LocalState& state, Eigen::Ref<Vecto
   thread_local std::vector<Frame> at;
   calc_stretch(state, s);
   if (!watched_.empty()) get_poses(state, at);
-  values.setConstant(-1);  // it neither leaves untouched places, nor touches touched ones
+  values.setConstant(-1);  // default: no untouched place touches, and no touched place leaves
   values[0] = s.E;
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const auto k = static_cast<std::size_t>(watched_[w]);

@@ -10,8 +10,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Smaller changes of slip in a step are errors of Newton's method, relative to the length: the rope sticks, and they
-/// do not add up.
+/// Changes of slip in a step below this fraction of the length are errors of Newton's method. The rope then sticks, and
+/// such changes do not accumulate.
 constexpr double negligible_slip = 1e-10;
 
 }  // namespace
@@ -38,7 +38,7 @@ void RopeSlip::declare(Declaration& declaration) const {
 }
 
 double RopeSlip::passed(const LocalState& own) {
-  constexpr double just_after = 2e-6, shortest = 1e-12;  // share of the last step; a time [s]
+  constexpr double just_after = 2e-6, shortest = 1e-12;  // fraction of the last step; time [s]
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const double passed = own.time() - own.memory()[time_memory];
   const double negligible =
@@ -101,7 +101,7 @@ void RopeSlip::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const
   memory[phase_memory] = smooth;
 }
 
-/// The time of a state may have been set anew, and its rates as well.
+/// Restarts the clock of the slip, because the time and the rates of the state may have been changed before the motion.
 void RopeSlip::begin_motion(const LocalState& state, bool /*known*/, Eigen::Ref<VectorX> memory) const {
   if (has_begun(state)) memory[time_memory] = state.time();
   memory[phase_memory] = damping_ > 0 ? begins : first_step;
@@ -113,8 +113,7 @@ void RopeSlip::begin_branch(const LocalState& state, std::span<const int> /*cros
   memory[phase_memory] = damping_ > 0 ? begins : first_step;
 }
 
-/// Lets a rope that is activated slip at once unless it has damping: its tensions may be too different for its
-/// friction.
+/// An activated rope slips at once, unless it has damping, because its tensions may differ by more than its friction.
 void RopeSlip::activate(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {
   memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
   memory[mean_memory] = memory[step_memory] = memory[rate_memory] = 0;

@@ -3,7 +3,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Component, along an axis of a pulley's frame on `node`, of the vector from there to a point of another node.
+/// Returns the component, along an axis of a pulley's frame on `node`, of the vector from there to a point of another
+/// node.
 template <int order>
 PairMeasureOf<order> way(const NodeState& node, const NodeState& other, const Pulley& here, const Vector3& there,
                          int axis) {

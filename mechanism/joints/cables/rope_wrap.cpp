@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether a rope that could slide would initially touch the pulley.
+/// Returns whether the rope would touch the pulley in the drawn position if it could slide.
 bool touches_as_drawn(const RopePath& before, const RopePath& after) {
   const std::size_t p = before.nodes.size() - 2;
   const RopeCourses around({before.pulleys[p], after.pulleys[0], after.pulleys[1]});
@@ -21,7 +21,7 @@ double wrap_as_drawn(const RopeSection& before, const RopeSection& after) {
   const double wrap = after.path().pulleys.front().radius < 0 ? -turn : turn;
   if (!touches_as_drawn(before.path(), after.path())) return unwrap_angle(wrap, 0);
   const double less_than_a_turn = unwrap_angle(wrap, M_PI);
-  return less_than_a_turn > 2 * M_PI - just_touching ? 0 : less_than_a_turn;  // it just touches
+  return less_than_a_turn > 2 * M_PI - just_touching ? 0 : less_than_a_turn;  // 0 if the rope just touches
 }
 
 }  // namespace

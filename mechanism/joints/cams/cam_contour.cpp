@@ -65,7 +65,7 @@ Curve CamContour::pitch_curve(double radius) const {
 }
 
 Interpolation CamContour::support() const {
-  // Each point of a convex contour touches the face with its own normal: (psi, H) follow without a search.
+  // Each point of a convex contour touches the face with its own normal; (psi, H) therefore follow without a search.
   const std::vector<Sample> samples = sample(8);
   VectorX psi = VectorX::Zero(static_cast<Eigen::Index>(samples.size()) + 1), H = psi;
   for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -44,7 +44,7 @@ void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
   model.add(std::make_unique<LiftedCoordinate>(name, angle, lifted, std::move(lift)), Entry{Section::joints, name});
 }
 
-/// The frame of a roller in the axes of the follower's node: z along the camshaft as drawn.
+/// Returns the frame of a roller in the axes of the follower's node: z along the camshaft as drawn.
 Frame roller_frame(const JointFrames& frames, const Model& model) {
   const Matrix3 cam = model.node(frames.first).frame.R * frames.on_first.R;
   return {frames.on_second.x, model.node(frames.second).frame.R.transpose() * cam};

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = JointCoordinate::Kind;
 
-/// @param deformation  the coordinate at which they are measured: "at the rack"
+/// @param deformation  the coordinate at which the deformation is measured: "at the rack"
 std::vector<Key> elastic_keys(const std::string& deformation, const std::string& unit, const std::string& stiffness,
                               const std::string& damping) {
   using namespace keys;

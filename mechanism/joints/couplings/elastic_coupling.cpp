@@ -44,13 +44,13 @@ void ElasticCoupling::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.damping = stops_.damping > 0;
   if (!plays()) return;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
   declaration.memory = {0};  // side of the contact
   stops_.declare_events("flanks touch, forwards", "flanks touch, backwards", declaration);
 }
 
 CoordinateRate ElasticCoupling::deformation(const LocalState& state) const {
-  long double value = 0;  // angles of many turns cancel in the sum
+  long double value = 0;  // long double, because angles of many turns cancel in the sum
   double rate = 0;
   for (const Term& term : terms()) {
     const CoordinateRate c = term.joint->coordinate(term.coordinate, state.of(term.reference));

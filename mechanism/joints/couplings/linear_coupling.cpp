@@ -13,7 +13,7 @@ void LinearCoupling::declare(Declaration& declaration) const {
 void LinearCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   thread_local CoordinateSlopes slopes;
   const double lambda = state.multiplier()[0];
-  long double sum = 0;  // angles of many turns cancel in the sum
+  long double sum = 0;  // long double, because angles of many turns cancel in the sum
   for (const Term& term : terms()) {
     term.joint->calc_slopes(term.coordinate, state.of(term.reference), slopes);
     r.segment(state.slots().reference_row(term.reference), slopes.g().size()) += (lambda * term.factor) * slopes.g();

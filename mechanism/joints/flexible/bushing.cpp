@@ -36,7 +36,7 @@ void Bushing::calc_measures(const LocalState& state, ElasticLaw::Measures& measu
 
 namespace {
 
-/// Whether a component refers to another, directly or through those that it refers to.
+/// Returns whether a component refers to another one, directly or through its references.
 bool depends_on(const Component& component, const Component& other, std::set<const Component*>& seen) {
   Declaration declaration;
   component.declare(declaration);
@@ -81,7 +81,7 @@ void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
 
 namespace {
 
-/// Returns the keys of joints that a bushing reads itself, or does without.
+/// Returns the keys of joints that a bushing reads itself, or does not have.
 std::vector<std::string> own_keys() {
   std::vector<std::string> own = keys::names_of(keys_of_elastic_law());
   own.insert(own.end(), {"rest", "friction"});
@@ -108,7 +108,7 @@ void read_bushing(const std::string& name, const YamlValue& entry, Model& model)
   if (formulas.film_speed)
     model.when_read(Model::Stage::formulas,
                     [&bushing, speed = *formulas.film_speed, &model] { bushing.read_film_speed(speed, model); });
-  // Formulas may read the bushing itself: they act on its coordinates.
+  // The formulas act as springs on the bushing's coordinates, so that they may depend on the bushing itself.
   for (const auto& [k, formula] : formulas.curves) {
     auto spring = std::make_unique<JointSpring>(name, bushing, k, 0, 0);
     model.when_read(Model::Stage::formulas,

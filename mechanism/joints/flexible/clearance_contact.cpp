@@ -32,7 +32,7 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
   }
   W_ = rotation.rate_gradients();
   if (is_face(place.kind)) {
-    // Collars without play are in contact in the middle, too: the force is zero there, but its stiffness is not.
+    // Collars without play also touch in the middle position, where the force is zero but the stiffness is not.
     p_ = place.kind == Place::face ? place.side * s_[2] - place.gap : sqrt(square(s_[2]) + least_way * least_way);
     Y_.row(0) = s_[0].gradient.transpose();
     Y_.row(1) = s_[1].gradient.transpose();
@@ -42,7 +42,8 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
   const int dimensions = place.kind == Place::bore ? 2 : 3;
   Vector3 rho = Vector3::Zero();
   for (int k = 0; k < dimensions; ++k) rho[k] = s_[static_cast<std::size_t>(k)].value;
-  // Without a gap the centred position is in contact: the force has no direction there, but its stiffness has a limit.
+  // Without a gap, the parts also touch in the centred position, where the force has no direction but the stiffness has
+  // a limit.
   const double l = place.gap > 0 ? rho.norm() : std::hypot(rho.norm(), least_way);
   p_.value = l - place.gap;
   if (p_.value <= 0) return;

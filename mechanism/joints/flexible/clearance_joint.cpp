@@ -19,8 +19,8 @@ ClearanceJoint::ClearanceJoint(std::string type, std::string name, JointFrames f
 void ClearanceJoint::declare(Declaration& declaration) const {
   Joint::declare(declaration);
   declaration.stiffness = declaration.damping = true;
-  declaration.kinks = true;                       // at zero total force
-  const double time = declaration.memory.back();  // the time is last
+  declaration.kinks = true;                       // the force has a kink at zero
+  const double time = declaration.memory.back();  // the time is the last entry
   declaration.memory.pop_back();
   for (const Place& place : places_) {
     declaration.event_functions.push_back({fmt::format("contact {}", place.name)});
@@ -129,7 +129,7 @@ void ClearanceJoint::add_energy(const LocalState& state, Energy& energy) const {
     const double p = c.p().value, N = push(k, state, c).F;
     if (p <= 0) continue;
     energy.elastic += places_[k].law.energy(p);
-    // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
+    // The damper dissipates the energy of a spring that it prevents from pushing.
     energy.dissipation += (N - places_[k].law.force(p, 0, 0).F) * c.p().rate(v);
     if (!rubs(state)) continue;
     if (has_bristles()) {
@@ -174,7 +174,8 @@ void ClearanceJoint::begin_branch(const LocalState& state, std::span<const int> 
   const Vector12 v = pair_rate(state.node(0), state.node(1));
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const bool met = std::find(crossed.begin(), crossed.end(), static_cast<int>(k)) != crossed.end();
-    // At an event p is zero up to rounding, and its rate determines the side. Its gradient is necessary there, too.
+    // At an event p is zero up to rounding, and its rate determines the side. The gap is reduced, so that the gradient
+    // of p is computed there, too.
     ClearancePlace place = places_[k].place;
     if (met) place.gap *= 0.5;
     const ClearanceContact c(state.node(0), state.node(1), frames(), place, turned, false);

@@ -28,7 +28,7 @@ double ClearanceJoint::calc_gap(const LocalState& state, MeasureGradient& gradie
   const PairRotation turned = rotation(state);
   double smallest = std::numeric_limits<double>::infinity();
   for (const Place& each : places_) {
-    // A contact has derivatives if surfaces touch: those without a gap always do.
+    // The derivatives of a contact are only computed if the surfaces touch. Without a gap they always touch.
     ClearancePlace place = each.place;
     place.gap = 0;
     const ClearanceContact c(state.node(0), state.node(1), frames(), place, turned, false);

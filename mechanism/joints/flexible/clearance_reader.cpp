@@ -78,7 +78,7 @@ std::array<double, 2> read_of_both(const YamlValue& value, const char* expected)
   return {numbers[0], numbers[1]};
 }
 
-/// E*
+/// Reads the materials of a contact, and returns E*.
 double read_contact_modulus(const YamlValue& contact) {
   const YamlValue young = contact.at("young"), poisson = contact.at("poisson");
   const auto E = read_of_both(young, "expected a modulus, or two: of bush and journal"),
@@ -167,7 +167,7 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
     if (!axial_contact && contact.has("young"))
       axial_gap->fail("give the stiffness of the collars, too: `axial_contact: {stiffness: ..}`");
     const NormalLaw of_faces = axial_contact ? read_normal_law(*axial_contact) : law;
-    if (play == 0) {  // one of the two touches, and the stiffness is that of one
+    if (play == 0) {  // only one of the two collars touches at a time, and the stiffness is that of one
       places.push_back({"of the collars", {ClearancePlace::Kind::faces, 0, 0, 1, radius}, of_faces});
     } else {
       places.push_back({"of the collar at -z", {ClearancePlace::Kind::face, play, 0, -1, radius}, of_faces});

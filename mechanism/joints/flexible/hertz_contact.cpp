@@ -27,7 +27,7 @@ double curvature_difference(double ratio) {
 double hertz_constant(double R_x, double R_y, double modulus) {
   const double sum = 1 / R_x + 1 / R_y, difference = std::abs(1 / R_x - 1 / R_y) / sum;
   double ratio = 1;
-  constexpr double circular = 1e-4;  // the ratio of the axes is 1 to the square of that
+  constexpr double circular = 1e-4;  // below this, a ratio of 1 is used: the error of the constant is about the square
   if (difference > circular) {
     double low = 1 + 1e-6, high = 2;
     while (curvature_difference(high) < difference) high *= 2;

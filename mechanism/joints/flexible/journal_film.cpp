@@ -97,7 +97,7 @@ JournalFilm::Shape JournalFilm::shape(double a_value, double d_value) const {
   if (slenderness_ > 0) {
     double rest = 1;
     FilmForce sum;
-    const int modes = 3 + static_cast<int>(2 * slenderness_);  // the rest has kappa R > 7
+    const int modes = 3 + static_cast<int>(2 * slenderness_);  // modes beyond these have kappa R > 7
     for (int m = 1; m < 2 * modes; m += 2) {
       const double stiff = std::pow(0.5 * m * pi / slenderness_, 2), share = 96 / std::pow(m * pi, 4);
       const FilmForce mode = mode_of_film(a, d, stiff);

@@ -87,7 +87,7 @@ void add_rolling_bearing(const char* type, const std::string& name, const YamlVa
   read_joint_actions(entry, bearing, model);
 }
 
-/// Force constant of a ball between both rings: the deflections of its two contacts add up.
+/// Returns the force constant of a ball between both rings; the deflections of its two contacts add up.
 double constant_of_ball(const RollingGeometry& geometry, double D, const Vector2& grooves, double modulus) {
   const double gamma = D * std::cos(geometry.contact_angle) / geometry.pitch_diameter;
   const auto flexibility = [&](double R_x, double groove) {

@@ -11,8 +11,8 @@ namespace bielle::mechanism {
 namespace {
 
 using std::numbers::pi;
-constexpr int spread = 180;  ///< places of elements that are spread over the ring
-constexpr int slices = 9;    ///< places along a roller
+constexpr int spread = 180;  ///< number of positions on the ring if the elements are spread evenly
+constexpr int slices = 9;    ///< number of positions along a roller
 
 }  // namespace
 
@@ -77,7 +77,7 @@ RollingBearingLaw::RollingBearingLaw(const RollingGeometry& geometry, double pre
   if (preload > 0) z_0_ = displacement_of(preload);
 }
 
-/// Bisection: the axial force grows with the displacement.
+/// Finds the displacement by bisection, because the axial force grows with it.
 double RollingBearingLaw::displacement_of(double preload) const {
   const auto force_at = [&](double z) {
     Vector6 e = Vector6::Zero();

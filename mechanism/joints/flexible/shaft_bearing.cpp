@@ -92,7 +92,7 @@ ShaftBearing::Motion ShaftBearing::motion(const LocalState& state, const std::ar
     motion.e[static_cast<Eigen::Index>(k)] = measures[k].value;
     motion.v[static_cast<Eigen::Index>(k)] = measures[k].rate(v);
   }
-  motion.e[spin] = coordinate(spin, state).value;  // counted
+  motion.e[spin] = coordinate(spin, state).value;  // the angle includes its turns
   if (const std::string why = law_->refusal(motion.e); !why.empty())
     throw ComputationError(fmt::format("t = {:.6g} s: {} '{}': {}", state.time(), type(), name(), why));
   return motion;

@@ -43,14 +43,14 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     radius->fail(fmt::format("a {} joint does not turn: it rubs without a radius", joint.type()));
   if (!radius && any_turns)
     entry.fail(fmt::format("a {} joint turns: give the `radius` of the surface that rubs [m]", joint.type()));
-  // The normal force of a thread contains the torque divided by the radius: a zero radius has no limit.
+  // The normal force of a thread contains the torque divided by the radius, which must therefore not be zero.
   const double r = radius ? radius->number() : 0;
   if (slides.lead != 0 && r == 0) radius->fail("expected a number greater than 0, found 0");
   FrictionSurface surface;
   for (const std::size_t k : slides.coordinates)
     surface.parts.push_back({k, static_cast<int>(surface.parts.size()), turns(k) ? r : 1.0});
   surface.components = static_cast<int>(surface.parts.size());
-  if (slides.lead != 0) {  // along the helix
+  if (slides.lead != 0) {  // the surfaces slide along the helix
     const double c = std::hypot(r, slides.lead);
     for (FrictionSurface::Part& part : surface.parts) {
       part.component = 0;
@@ -59,7 +59,7 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     surface.components = 1;
     surface.thread_radius = r;
   }
-  if (slides.roller != 0) {  // on its pin, of the radius r
+  if (slides.roller != 0) {  // the roller slides on its pin, which has the radius r
     for (FrictionSurface::Part& part : surface.parts) {
       part.component = 0;
       part.arm = turns(part.coordinate) ? -r : r / slides.roller;

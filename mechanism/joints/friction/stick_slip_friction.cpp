@@ -143,17 +143,18 @@ void StickSlipFriction::calc_event_functions(const LocalState& state, Eigen::Ref
     if (memory[has_slipped] != 0) {
       values[comes_to_rest] = v - rounding;
     } else {
-      // If it has just begun to slip, its velocity is rounding, or an error of the scheme: the acceleration decides.
+      // Just after slip has begun, the velocity is only a rounding error, or an error of the scheme. The acceleration
+      // is therefore included.
       const double a = dir * acceleration(state) + no_acceleration(state);
       const bool just_now = state.time() <= memory[slips_since];
-      // If it can neither stick nor slip, it continues for a step: others may hold it.
+      // A joint that can neither stick nor slip continues for a step, because other constraints may hold it.
       constexpr double often = 2;
       values[comes_to_rest] = !just_now ? std::max(v + rounding, a) : memory[refusals] < often ? a : 1;
     }
   } else if (holds(state)) {
     values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.reaction()[0]);
   } else if (is_on(state, 0) && std::abs(acceleration(state)) > no_acceleration(state)) {
-    values[begins_to_slip] = -1;  // a joint that others hold at zero velocity moves on
+    values[begins_to_slip] = -1;  // other constraints had stopped the joint, which now accelerates
   }
 }
 
@@ -195,8 +196,8 @@ void StickSlipFriction::begin_branch(const LocalState& state, std::span<const in
   if (is_on(state, 0) && !holds(state)) {
     const bool again = state.time() <= state.memory()[slips_since];
     const double refused = again ? state.memory()[refusals] : 0;
-    // The remaining velocity may be the scheme's error of a rate that has just passed zero: the acceleration decides.
-    // If this was wrong at the same time before, the velocity decides.
+    // The remaining velocity may be an error of the scheme for a rate that has just passed zero. The acceleration then
+    // decides; if this was wrong before at the same time, the velocity decides.
     if (has_crossed(begins_to_slip) && !(again && std::abs(v) > no_velocity(state))) {
       slip_along(std::copysign(1.0, acceleration(state)), false, state, memory);
       memory[refusals] = refused + 1;

@@ -16,7 +16,7 @@ ElasticGearMesh::ElasticGearMesh(std::string name, std::array<int, 3> nodes, std
 void ElasticGearMesh::declare(Declaration& declaration) const {
   GearMesh::declare(declaration);
   declaration.damping = spring_.damping > 0;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
   const double touch = plays() ? 0 : 1;
   declaration.memory.insert(declaration.memory.end(), {touch, touch});  // whether each flank touches
   if (plays()) declaration.event_functions = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
@@ -54,11 +54,12 @@ ElasticGearMesh::Flank<order> ElasticGearMesh::flank(int side, double stiffness,
   Flank<order> flank;
   flank.p = penetration<order>(side, error, state);
   flank.rate = flank.p.rate(ToothContact::rates(state));
-  // Without play, one of the flanks is always loaded: nothing jumps when they change.
+  // Without play, one of the flanks is always loaded, and a change between them causes no jump.
   flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
                                                            : state.memory()[ToothContact::memories + side] != 0);
   const double push = stiffness * flank.p.value + spring_.damping * flank.rate;
-  // Without play both flanks are at zero without a load: one of them counts there, or the stiffness would be doubled.
+  // Without play and load, both flanks are at zero. Only one of them counts, because the stiffness would otherwise be
+  // doubled.
   flank.pushes = flank.touches && (push > 0 || (push == 0 && (plays() || side == 0)));
   flank.force = flank.pushes ? push : 0;
   flank.pressed = !flank.touches ? 0 : plays() ? flank.p.value : std::max(0.0, flank.p.value);

@@ -58,8 +58,8 @@ void GearMesh::describe(const LocalState& state, Description& description) const
   if (!errors_.is_zero()) description.add(fmt::format("error of the teeth as drawn {:.6g} m", errors_.value({0, 0})));
 }
 
-/// Wheels are discs through the point where the teeth meet. The larger of two parallel wheels is a ring if both axes
-/// are on the same side of that point.
+/// Draws the wheels as discs through the point where the teeth meet. The larger of two parallel wheels is a ring if
+/// both axes are on the same side of that point.
 void GearMesh::draw(Drawing& drawing) const {
   const ToothGeometry& g = contact_.geometry();
   std::array<Vector3, 2> arm;  // from each axis to the pitch point, in the carrier's axes

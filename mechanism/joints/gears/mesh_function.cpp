@@ -8,8 +8,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Returns a formula of two measures, with the mixed second derivative from that along both together, f_aa + 2 f_ab +
-/// f_bb.
+/// Returns a formula of two measures. The mixed second derivative follows from that along both together, f_aa + 2 f_ab
+/// + f_bb.
 template <class Measure>
 Measure composed(const Expression& formula, const Measure& a, const Measure& b) {
   const std::array<double, 2> values{a.value, b.value};

@@ -108,7 +108,7 @@ MeshFunction read_iso(const YamlValue& given, const ToothGeometry& geometry, dou
   const auto arm = [&](std::size_t k) { return geometry.axis[k].cross(geometry.P - geometry.centre[k]).norm(); };
   if (std::abs(pair.teeth[0] * arm(1) - pair.teeth[1] * arm(0)) > 1e-3 * pair.teeth[0] * arm(1))
     entry.at("teeth").fail(fmt::format("expected the ratio of the pitch radii, {:.6g} to {:.6g} m", arm(0), arm(1)));
-  if (pair.teeth[0] > pair.teeth[1]) {  // the standard has the pinion first
+  if (pair.teeth[0] > pair.teeth[1]) {  // the standard begins with the pinion
     std::swap(pair.teeth[0], pair.teeth[1]);
     std::swap(pair.shifts[0], pair.shifts[1]);
   }
@@ -133,12 +133,12 @@ void check_positive_at(const MeshFunction& stiffness, const std::array<double, 2
   try {
     if (const double found = stiffness.value(angles); !(found > 0))
       value.fail(fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at {}", found, where));
-  } catch (const ComputationError& error) {  // names the place
+  } catch (const ComputationError& error) {  // the message names the place
     throw InputError(error.what());
   }
 }
 
-/// Examines a period of a table, or a turn of the first wheel. @param teeth  periods in a turn
+/// Checks samples of a period of a table, or of a turn of the first wheel. @param teeth  periods in a turn
 void check_positive(const MeshFunction& stiffness, const YamlValue& value, double teeth) {
   const int samples = 16384;
   for (int k = 0; k < samples; ++k) {
@@ -147,7 +147,7 @@ void check_positive(const MeshFunction& stiffness, const YamlValue& value, doubl
   }
 }
 
-/// Examines a turn of both wheels, each at any angle of the other one.
+/// Checks samples of a turn of both wheels, each at any angle of the other one.
 void check_positive_of_both(const MeshFunction& stiffness, const YamlValue& value) {
   const int samples = 180;
   for (int k = 0; k < samples; ++k)

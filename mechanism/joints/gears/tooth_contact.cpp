@@ -28,7 +28,7 @@ MeshMeasureOf<order> in_mesh(const PairMeasureOf<order>& pair, int wheel) {
 
 ToothContact::ToothContact(const ToothGeometry& geometry)
     : geometry_(geometry), on_carrier_{axes_along(geometry.axis[0]), axes_along(geometry.axis[1])} {
-  // The wheels' frames follow from their initial positions: in the axes of the wheels, those of the carrier.
+  // The frames of wheels and carrier coincide in the initial position. They are given in the axes of the wheels.
   for (std::size_t k = 0; k < 2; ++k) geometry_.wheel[k] = geometry_.wheel[k] * on_carrier_[k];
 }
 

@@ -24,13 +24,13 @@ double length_at(const Expression& length, double t, const std::string& name) {
 
 using RowList = std::vector<MeasuredPair::Row>;
 
-/// (d . d - L^2)/(2 L)
+/// Returns (d . d - L^2)/(2 L).
 template <class Measure>
 Measure length_row(const Measure& dd, double L) {
   return (0.5 / L) * (dd - L * L);
 }
 
-/// Angular velocity of the line between the two points [rad/s].
+/// Returns the angular velocity of the line between the two points [rad/s].
 double turning_of_rod(const LocalState& state, const JointFrames& frames) {
   const NodeState &first = state.node(0), &second = state.node(1);
   const PointGap gap(first, second, frames.on_first.x, frames.on_second.x);

@@ -18,7 +18,7 @@ namespace {
 constexpr int parameter = 12;  ///< local row of u
 constexpr int first_row = 13;  ///< first row of the constraints
 
-/// A roller also has the angle of the part that carries its pin.
+/// Returns the coordinates. A roller has in addition the angle of the part that carries its pin.
 std::vector<JointCoordinate> coordinates_of(double roller) {
   std::vector<JointCoordinate> all = {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}};
   if (roller > 0) all.push_back({"angle", JointCoordinate::Kind::angle, 2});
@@ -206,7 +206,7 @@ void read_point_on_curve(const std::string& name, const YamlValue& entry, Model&
 
 void PointOnCurve::draw(Drawing& drawing) const {
   Joint::draw(drawing);
-  if (drawing.shaped()) return;  // the contour of a cam
+  if (drawing.shaped()) return;  // the curve is the contour of a cam, which draws it
   constexpr int points = 200;
   std::vector<std::vector<double>> line;
   const int last = curve_.closed() ? points - 1 : points;

@@ -26,13 +26,13 @@ void ScrewJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> r
   rows[2] = alignment<order>(1, 2, state);
   rows[3] = alignment<order>(0, 2, state);
   auto angle = measure_angle<order>(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
-  angle.value = coordinate(screw_angle, state).value;  // including its turns
+  angle.value = coordinate(screw_angle, state).value;  // this value includes the turns
   rows[4] = position<order>(2, state) - (pitch_ / (2 * M_PI)) * angle;
 }
 
 void ScrewJoint::start_at(std::size_t coordinate, double value, bool by_motion) {
   MeasuredPair::start_at(coordinate, value, by_motion);
-  // The start value along its axis determines the number of turns.
+  // The start value of the displacement determines the number of turns.
   if (coordinate != screw_angle) MeasuredPair::start_at(screw_angle, 2 * M_PI * value / pitch_, by_motion);
 }
 

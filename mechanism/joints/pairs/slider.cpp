@@ -116,7 +116,7 @@ void SliderJoint::calc_position_row(int axis, const LocalState& state, Row& resu
   const Weights w = weights(xi, L, 0), w1 = weights(xi, L, 1), w2 = weights(xi, L, 2);
   for (std::size_t k = 0; k < 2; ++k) {
     const std::size_t end = element + k;
-    if (end == 0) {  // the first node itself: its own tangent is constant
+    if (end == 0) {  // the tangent of the first node is constant in its own axes
       const double along = e.dot(line_.tangent[0]);
       result.value -= w.M[k] * along;
       result.gradient[u] -= w1.M[k] * along;
@@ -268,7 +268,7 @@ void SliderJoint::describe(const LocalState& state, Description& description) co
       fmt::format("{:.6g} m from the start of a beam of {:.6g} m", state.amplitude()[0], line_.place.back()));
 }
 
-/// The slider moves along the beam: its frame alone shows the place.
+/// Draws the frame of the slider only, which shows its place on the beam.
 void SliderJoint::draw(Drawing& drawing) const {
   const DrawnPlace slider{frames().second, frames().on_second};
   drawing.add({.shape = "joint", .places = {slider, slider}});

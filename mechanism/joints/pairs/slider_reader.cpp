@@ -112,7 +112,7 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
   Frame joint;
   joint.x = model.node(chain.nodes.front()).frame.x;
   const Matrix3& R = model.node(chain.nodes.front()).frame.R;
-  const Matrix3 axes = R * axes_along(R.transpose() * foot.tangent);  // they turn with a part
+  const Matrix3 axes = R * axes_along(R.transpose() * foot.tangent);  // these axes rotate with a placed part
   joint.R << axes.col(2), axes.col(0), axes.col(1);                   // x along the line
   JointFrames frames;
   frames.first = chain.nodes.front();

@@ -9,7 +9,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// f(psi) and its derivative.
+/// Returns f(psi) and its derivative.
 std::pair<double, double> brush(double psi) {
   if (psi < 1) return {1 - psi + psi * psi / 3, -1 + 2 * psi / 3};
   return {1 / (3 * psi), -1 / (3 * psi * psi)};

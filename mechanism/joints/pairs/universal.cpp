@@ -16,7 +16,7 @@ namespace {
 using CoordinateKind = JointCoordinate::Kind;
 constexpr int x = 0, y = 1, z = 2;  ///< indices of axes of the frames
 
-/// Rows of a common point, and one further row.
+/// Returns the rows of a common point, and one further row.
 std::vector<MeasuredPair::Row> point_and(const char* torque) {
   return {{"x", "N"}, {"y", "N"}, {"z", "N"}, {torque, "N m"}};
 }

@@ -52,7 +52,8 @@ PairMeasureOf<order> carried(const PairMeasureOf<order>& factor, const PairMeasu
   return result;
 }
 
-/// Component of the relative angular velocity along an axis of node 1 that varies. @param e  components along node 1
+/// Returns the component of the relative angular velocity along an axis of node 1 that varies. @param e  components
+/// along node 1
 template <int order>
 PairMeasureOf<order> turning_about(const NodeState& first, const NodeState& second, const PairVector<order>& e) {
   const Matrix3 R_21 = second.R.transpose() * first.R;
@@ -71,7 +72,7 @@ PairMeasureOf<order> turning_about(const NodeState& first, const NodeState& seco
   return w;
 }
 
-/// Component of the relative angular velocity along an axis of node 2. @param e_2  components along node 2
+/// Returns the component of the relative angular velocity along an axis of node 2. @param e_2  components along node 2
 template <int order>
 PairMeasureOf<order> turning_about(const NodeState& first, const NodeState& second, const Vector3& e_2) {
   const Matrix3 R_12 = first.R.transpose() * second.R;
@@ -90,7 +91,7 @@ PairMeasureOf<order> turning_about(const NodeState& first, const NodeState& seco
 PairSlope calc_deflection(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
                           const RoadProfile* road) {
   const RoadBelow<1> below = calc_road<1>(first, second, frames, radius, road);
-  // A wheel that lies flat has no lowest point, but a distance from the road.
+  // A wheel that lies flat has no lowest point. Its distance from the road is still defined.
   if (!(below.squared.value > flat_wheel * flat_wheel)) return -below.distance;
   return radius * sqrt(below.squared) - below.distance;
 }

@@ -55,7 +55,8 @@ void Tyre::declare(Declaration& declaration) const {
   Joint::declare(declaration);
   declaration.stiffness = declaration.damping = true;
   declaration.kinks = true;
-  // Whether the tyre touches; not known before the first motion. The time of a joint's memory is last.
+  // The memory tells whether the tyre touches (NaN before the first motion). The last entry is the time of the joint's
+  // memory.
   declaration.memory.insert(declaration.memory.end() - 1, std::numeric_limits<double>::quiet_NaN());
   declaration.event_functions = {{"touches the road", EventFunction::Direction::rising},
                                  {"leaves the road", EventFunction::Direction::falling}};
@@ -75,7 +76,7 @@ PairSlope Tyre::deflection(const LocalState& state) const {
 bool Tyre::touches(const LocalState& state) const {
   const auto memory = state.memory();
   const double known = memory[memory.size() - 2];
-  // A tyre that just touches has its stiffness: otherwise nothing would hold its wheel in statics.
+  // A tyre that just touches has its stiffness, because nothing else would hold its wheel in statics.
   if (state.environment().statics || std::isnan(known)) return deflection(state).value >= 0;
   return known > 0;
 }
@@ -121,7 +122,7 @@ TyreForces Tyre::forces(const LocalState& state) const {
   return touches(state) ? calc_contact<1>(state).forces : law_.calc(unknowns_alone(state), false);
 }
 
-// In a static analysis time does not advance: the tread keeps its deflections.
+// Time does not advance in a static analysis, and the tread therefore keeps its deflections.
 void Tyre::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   TyreForces acting;
   if (touches(state)) {

@@ -69,7 +69,7 @@ Grip calc_grip(const TyreNumber& V, const TyreNumber& s, const TyreSlip& slip) {
   return {y.value * V, compose(V, s, g.value, -g.slope * rho / V.value, g.slope / V.value)};
 }
 
-/// t/t_0 of the brush model. @param q  force over mu N
+/// Returns t/t_0 of the brush model. @param q  force over mu N
 TyreNumber trail_factor(const TyreNumber& q) {
   if (q.value >= 1) return {};
   // d(p^3) = -dq, and p' = -1/(3 p^2), which is multiplied by p^3.
@@ -154,7 +154,7 @@ void SpringTyreLaw::add_slip(const Numbers& z, const TyreNumber& direction, Tyre
       eta.value / damped.value * (c_x.value * forces.u_x_rate.value + c_y.value * forces.u_y_rate.value);
 }
 
-/// eta, which fades until the tyre rolls at v_0.
+/// Returns eta, which decreases with the speed and is zero from v_0 on.
 TyreNumber SpringTyreLaw::standing_damping(const TyreNumber& V_r) const {
   const double w = V_r.value / speed, left = 1 - w * w;
   if (!(left > 0)) return {};

@@ -70,7 +70,7 @@ TyreSlip read_tyre_slip(const YamlValue& entry) {
   slip.relaxation = relaxation.is_sequence() ? Eigen::Vector2d(relaxation.vector())
                                              : Eigen::Vector2d::Constant(relaxation.number()).eval();
   slip.friction = entry.at("friction").number();
-  // A loss factor of 0.2 at 6 Hz, which rubber has and at which cars swing on their standing tyres.
+  // It corresponds to a loss factor of 0.2, as rubber has, at 6 Hz, the frequency of cars on their standing tyres.
   constexpr double damping_time = 5e-3;
   const auto damping = entry.find("damping");
   slip.damping = damping ? damping->number() / slip.stiffness.x() : damping_time / slip.relaxation.x();
@@ -103,7 +103,7 @@ ForceCurve read_radial_curve(const YamlValue& value) {
   });
 }
 
-/// Reads the profile, and moves and turns the road's frame: its origin is the point of the plane.
+/// Reads the profile. The road's frame is moved to the point of the plane, and rotated by `along`.
 std::shared_ptr<const RoadProfile> read_road(const YamlValue& road, const YamlValue& entry, double radius,
                                              const Model& model, JointFrames& frames) {
   const Frame& node = model.node(frames.first).frame;

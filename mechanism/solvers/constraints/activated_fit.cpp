@@ -14,7 +14,7 @@ void check_activated_fit(const System& system, const Environment& environment, c
   if (!system.activities().any()) return;
   // The time of an event is located to a billionth of a step: gaps of this size are rounding errors of positions.
   constexpr double tolerance = 1e-6;
-  double length = 0;  // not known yet
+  double length = 0;  // computed when it is first needed
   VectorX r;
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     const Slots& slots = system.slots()[m];

@@ -149,8 +149,8 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   state.reaction = smallest(state.multiplier);
 }
 
-/// Returns whether event functions read reactions that are not set yet. If forces read them as well, they are: the
-/// equations of the state were solved with them.
+/// Returns whether event functions read reactions that are not set yet. They are set if forces read them as well,
+/// because the equations of the state were then solved with them.
 bool EventFunctionValues::needs(const State& state) const {
   if (!system_.event_functions_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
   return !system_.reads_reactions() || state.reaction.size() == 0;

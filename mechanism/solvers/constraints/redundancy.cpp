@@ -38,7 +38,8 @@ double longest_arm(const System& system, const std::vector<double>& values, doub
         if (system.kind(row) == Kind::translation) force += square;
         if (system.kind(row) == Kind::rotation) moment += square;
       }
-      // Directions have length one; a model with all nodes at one point has no size with which moments can be compared.
+      // Directions have length one. If all nodes of a model are at one point, there is no size with which moments can
+      // be compared.
       constexpr double direction = 1e-6;
       if (!(std::sqrt(force) > direction) && !(std::sqrt(force) * positions > rounding * std::sqrt(moment))) continue;
       forces += force;
@@ -61,7 +62,7 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
   std::vector<Eigen::Triplet<double>> entries;
-  // The last ones of dependent columns are found.
+  // The last ones of dependent columns are found. Constraints that yield to others therefore come last.
   std::vector<int> order(static_cast<std::size_t>(system.multipliers())), place(order.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(), [&](int m) { return !system.yields(m); });
@@ -206,13 +207,13 @@ namespace {
 /// Returns whether fewer constraints are redundant after a small motion along a direction that the other constraints
 /// permit: the mechanism is then in a singular position, for example with links in line.
 bool stands_in_singular_position(const System& system, const Environment& environment, const State& state) {
-  // Along the motion, constraints are satisfied to second order: permanently redundant ones differ by 1e-6, and those
-  // that are redundant only here by 1e-3.
+  // The motion satisfies constraints to second order: after a motion of 1e-3, permanently redundant constraints are
+  // still dependent to 1e-6, and those that are redundant only here to 1e-3.
   constexpr double part = 1e-3, least = 3e-5;
   if (system.dofs() == 0) return false;
   VectorX v(system.dofs());
   for (Eigen::Index k = 0; k < v.size(); ++k)
-    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // not aligned with any direction
+    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // the direction is not aligned with any axis
   try {
     State moving = state;
     system.set_rates(moving, v, VectorX::Zero(v.size()));
@@ -257,10 +258,10 @@ std::string describe_singular_start(const System& system, const Environment& env
 
 void check_set_aside(const System& system, const Environment& environment, const State& state) {
   if (system.set_aside().empty() && state.idle.empty()) return;
-  // Rounding and Newton's tolerance are far smaller; a contradiction shows immediately.
+  // Rounding and the errors of Newton's method are far smaller, and a contradiction exceeds this tolerance at once.
   constexpr double tolerance = 1e-6;
   std::size_t evaluated = system.slots().size();
-  double length = 0;  // not known yet
+  double length = 0;  // computed when it is first needed
   VectorX r;
   system.for_each_redundant(state, [&](int multiplier) {
     const std::size_t member = owner_of(system, multiplier);

@@ -158,7 +158,7 @@ double SoughtEfforts::ratio(const VectorX& forces, const ResidualScale& scale) c
 }
 
 MatrixX SoughtEfforts::inverse_of(const MatrixX& S, const State& state) const {
-  constexpr double nothing = 1e-8;  // relative to a lever of the mechanism's size; differences are exact to 1e-10
+  constexpr double nothing = 1e-8;  // relative to an arm of the mechanism's size; the differences are exact to 1e-10
   const double length = std::max(model_extent(state), 1e-30);
   MatrixX scaled = S;
   for (Eigen::Index j = 0; j < count(); ++j) {

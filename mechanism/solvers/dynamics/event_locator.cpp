@@ -37,7 +37,7 @@ std::vector<int> EventLocator::begin(const State& state, const Environment& envi
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
-    // An event that does not end steps may have occurred exactly at the end of one.
+    // An event that does not end steps may have occurred exactly at the end of the last step.
     if (side == 0 || (side == -sides_[k] && !ends_step_[static_cast<std::size_t>(k)] && met(k))) continue;
     if (side == -sides_[k] && counts(k))
       jumped.push_back(k);
@@ -72,7 +72,7 @@ bool EventLocator::counts(int k) const {
 bool EventLocator::has_crossed(int k, double value) const {
   const double side = sides_[k];
   if (side == 0 || side * value > 0) return false;
-  // If the value is zero at the start and at the end, no event has occurred: the sign defines the side later.
+  // If the value is zero at the start and at the end, no event has occurred. Its later sign defines the side.
   if (value == 0 && at_start_[k] == 0) return false;
   return counts(k);
 }

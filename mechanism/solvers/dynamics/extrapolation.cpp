@@ -9,7 +9,8 @@ namespace {
 
 // Number of steps for which a choice is valid: it is doubled each time that the choice is confirmed.
 constexpr int shortest = 16, longest = 128;
-constexpr double grown = 4;  // residual relative to that when the order was chosen
+// Growth of the residual since the order was chosen, beyond which the order is chosen again.
+constexpr double grown = 4;
 
 }  // namespace
 
@@ -24,7 +25,7 @@ void Extrapolation::forget() {
 }
 
 void Extrapolation::add(double time, const VectorX& values) {
-  constexpr double hardly = 0.1;  // fraction of the previous step
+  constexpr double hardly = 0.1;  // a step below this fraction of the previous one replaces its values
   const bool replaces = count_ > 1 && time - times_[place(0)] < hardly * (times_[place(0)] - times_[place(1)]);
   if (!replaces) {
     newest_ = (newest_ + 1) % (most_order + 1);
@@ -45,7 +46,7 @@ Extrapolation::Weights Extrapolation::weights(int order, double time) const {
 }
 
 int Extrapolation::highest_order(double time) const {
-  constexpr double most = 32;  // 31 for steps of equal size and order 4
+  constexpr double most = 32;  // largest amplification of errors; it is 31 for steps of equal size and order 4
   int order = highest_order();
   const auto amplification = [&] {
     double sum = 0;

@@ -15,12 +15,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Tolerance for times of events [s]: far below the error of a step of size h, far above rounding.
+/// Returns the tolerance for times of events [s], which is far below the error of a step of size h, far above rounding.
 double tolerance_of(double h, double time) {
   return std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
-/// Returns the size of the next step after one of size h with this error over tolerance.
+/// Returns the size of the next step after one of size h. @param error  relative to the tolerance
 double proposed_size(double h, double error, double largest) {
   const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
   if (error > 1) return h * std::clamp(factor, 0.1, 0.9);
@@ -83,22 +83,22 @@ void March::begin_branch(double h, std::optional<Jump>& before) {
   before = integration_.begin_branch(h, begins);
 }
 
-/// Ends the step at the next jump that a delay brings back.
+/// Ends the step at the next time at which a delay returns a jump.
 void March::heed_echoes() { stops_.heed(integration_.next_echo(stops_.just_after(integration_.state().time))); }
 
 void March::begin_step(MarchStep& step) {
   heed_echoes();
   double h = std::min(size_, stops_.time() - integration_.state().time);
-  if (is_short(h)) h = size_;  // the scheme's own values are for the steps that follow
+  if (is_short(h)) h = size_;  // the scheme gets values for the steps that follow the short one
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
   begin_branches(h, step);
-  heed_echoes();  // also those of jumps that have just occurred
+  heed_echoes();  // includes those of jumps that have just occurred
 }
 
 /// Begins the branches of events and kinks at the start of a step.
 void March::begin_branches(double h, MarchStep& step) {
-  std::optional<Jump> jump;  // the last one, which is followed by the step
+  std::optional<Jump> jump;  // the last jump, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
   begun_anew_ = pending_ != Pending::nothing;
   pending_ = Pending::nothing;
@@ -126,7 +126,7 @@ bool March::has_actions_to_do() const {
 void March::settle(MarchStep& step) {
   if (!done() || !has_actions_to_do()) return;
   const bool stopped = stopped_;
-  constexpr int most = 100;  // events may follow that stop the run as well
+  constexpr int most = 100;  // later events may stop the run as well
   for (int k = 0; k < most && has_actions_to_do(); ++k) {
     stopped_ = false;
     begin_branches(size_, step);
@@ -134,16 +134,16 @@ void March::settle(MarchStep& step) {
   stopped_ = stopped_ || stopped;
 }
 
-/// Treats events that were passed by a jump, at a discontinuity or when a short span's accelerations were solved for:
-/// they may begin further branches there.
+/// Treats events that were passed by a jump, at a discontinuity, or when the accelerations of a short span were
+/// computed. They may begin further branches there.
 void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step) {
-  // Branches that begin simultaneously may reverse each other repeatedly; one after the other they settle.
+  // Branches that begin simultaneously may reverse each other repeatedly. If they begin one after the other, this ends.
   constexpr int together = 10, most = 100;
   for (int k = 0; !jumped.empty(); ++k) {
     if (k == most) throw_chattering(jumped.front());
     crossed_.clear();
     note(jumped, step);
-    if (stopped_) return;  // the events that stopped the run may still have something to do, see settle
+    if (stopped_) return;  // the events that stopped the run may still have actions, see settle
     const bool restarts = pending_ == Pending::branch;
     pending_ = Pending::nothing;
     if (!restarts) return;
@@ -152,16 +152,17 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
   }
 }
 
-/// Returns whether a span is too short for the scheme: the remainder after an event or a kink, not a step that was
-/// reduced.
+/// Returns whether a span is too short for the scheme. Such a span is the remainder after an event or a kink, not a
+/// step that was reduced.
 bool March::is_short(double h) const {
   constexpr double share = 0.01;
   return h < share * size_ && h < integration_.longest_short_span();
 }
 
 StepReport March::attempt(double h, double end, bool kink) {
-  constexpr double small = 1e-6;                      // relevant time constants are longer
-  const bool cut = !begun_anew_ && h < 0.49 * size_;  // much shorter than the previous step
+  constexpr double small = 1e-6;  // relevant time constants are longer
+  // A step of this fraction is shorter than all relevant time constants.
+  const bool cut = !begun_anew_ && h < 0.49 * size_;
   const StepReport report = is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_)
                             : cut       ? integration_.attempt_settled(h, end, kink)
                                         : integration_.attempt(h, end, kink);
@@ -262,8 +263,8 @@ March::Plan March::plan() const {
   return plan;
 }
 
-/// Formulas of time may act between the ends of an attempted step and not at them: returns the error due to this,
-/// relative to the tolerance. It is 0 with fixed steps, whose run reports it at its end.
+/// Returns the error, relative to the tolerance, due to formulas of time that act between the ends of an attempted step
+/// but not at them. It is 0 with fixed steps, because their run reports the error at its end.
 double March::missed(const Plan& plan) {
   if (pulses_.idle()) return 0;
   pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
@@ -274,8 +275,8 @@ double March::missed(const Plan& plan) {
 /// @param too_large  number of consecutive attempts in this step with too large an error
 /// @returns whether it is to be accepted; otherwise the step size has been reduced
 bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
-  // The local error decreases with the third power of the step. If it does not, the cause are errors that changes of
-  // the step size left in the algorithmic accelerations: these are recomputed from equilibrium.
+  // The local error decreases with the third power of the step. If it does not, changes of the step size have left
+  // errors in the algorithmic accelerations. These are then recomputed from equilibrium.
   constexpr int most = 2;
   if (too_large >= most)
     integration_.restart(plan.size);

@@ -14,7 +14,7 @@ void MarchLog::exchange(Archive& archive, int equations) {
 }
 
 MarchLog MarchLog::followed_by(const MarchLog& next) const {
-  MarchLog both = next.most_iterations > most_iterations ? next : *this;  // the hardest step of the two
+  MarchLog both = next.most_iterations > most_iterations ? next : *this;  // the log of the hardest step is kept
   both.steps = steps + next.steps;
   both.iterations = iterations + next.iterations;
   both.factorisations = factorisations + next.factorisations;

@@ -95,7 +95,7 @@ double PulseWatch::error(const Environment& environment, const ErrorNorm& norm, 
 }
 
 double PulseWatch::of_motions(const ErrorNorm& norm, double tolerance) const {
-  if (step_.size() * most_parts < span_) return 0;  // shorter than the pulses searched for: accelerations show them
+  if (step_.size() * most_parts < span_) return 0;  // steps shorter than these pulses show them by the accelerations
   double error = 0;
   for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
     if (formula.part == TimeDependent::Part::force) return;
@@ -111,7 +111,7 @@ double PulseWatch::missed_by(const Source& source) const {
   return sum;
 }
 
-/// Estimates the error of a source's impulse from its formulas, by their earlier effect; negative: not known.
+/// Estimates the error of a source's impulse from its formulas and their earlier effect; negative if it is not known.
 double PulseWatch::estimate(const Source& source) const { return source.gain * step_.size() * missed_by(source); }
 
 /// Returns whether the impulse of a source must be computed. @param large  an estimate that is significant

@@ -111,7 +111,7 @@ void SchemeStep::follow(const VectorX* without_rates) {
   still_algebraic();
 }
 
-/// Sets the rates of algebraic unknowns to zero: they have none.
+/// Sets the rates of algebraic unknowns, which have none, to zero.
 void SchemeStep::still_algebraic() {
   for (const int k : system_.algebraic()) trial_.first_order_rate[k] = 0;
 }
@@ -143,7 +143,7 @@ void SchemeStep::for_each_rotation(const Act& act) const {
 
 void SchemeStep::check_turns() const {
   constexpr double most_turn = 0.9 * 2 * 3.14159265358979324;  // [rad]
-  if (dq_.lpNorm<Eigen::Infinity>() < most_turn / 2) return;   // nearly always
+  if (dq_.lpNorm<Eigen::Infinity>() < most_turn / 2) return;   // the usual case
   for_each_rotation([&](std::size_t node, int k) {
     if (const double turn = dq_.segment<3>(k).norm(); turn > most_turn)
       throw ComputationError(fmt::format(

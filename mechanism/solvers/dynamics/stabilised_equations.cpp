@@ -217,7 +217,7 @@ const VectorX& StabilisedEquations::judged(const VectorX& r, double h) {
 }
 
 StepCosts StabilisedEquations::costs() const {
-  constexpr int tangents = 4;  // those of `factor`
+  constexpr int tangents = 4;  // number of tangents that factor() computes
   return count_costs(system_, size(), tangents, large_->factors.cost());
 }
 

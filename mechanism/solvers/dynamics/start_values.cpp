@@ -11,8 +11,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Computes forward differences of the consistent accelerations along the motion: functions of time may not exist
-/// before the start. The difference step only has to be small relative to h.
+/// Computes forward differences of the consistent accelerations along the motion, because functions of time may not
+/// exist before the start. The difference step only has to be small relative to h.
 VectorX acceleration_rate(const SchemeStep& step, const Environment& environment, KktMatrix& saddle, double h) {
   const System& system = step.system();
   const State& state = step.state();

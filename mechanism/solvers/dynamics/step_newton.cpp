@@ -77,7 +77,7 @@ void StepNewton::move_and_follow(SchemeStep& step, double part) {
   equations_->follow(step);
 }
 
-/// Cost of the iterations so far [ns].
+/// Returns the cost of the iterations so far [ns].
 double StepNewton::spent(const StepReport& report) const {
   return policy_.cost(report.evaluations - evaluations_before_, report.solutions, report.factorisations);
 }
@@ -220,7 +220,7 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
     size_ = size_of_residual();
     return;
   }
-  // From a distant start even new factors are soon of no use.
+  // Even new factors are soon useless if the solution is far away; they are then not reused.
   if (renew && !policy_.worthwhile(before, size_)) factored_for_ = 0;
   if (options_.line_search && !(size_ <= before)) shorten(step, before, refusal, report);
 }
@@ -240,8 +240,8 @@ bool StepNewton::reached(const SchemeStep& step, const StepReport& report) {
 
 bool StepNewton::within_tolerance() { return convergence_.reached(equations_->judged(r_, h_), scale_); }
 
-/// Returns whether the residual is finite. One that is not a number makes the size infinite; before the first iteration
-/// there is no size.
+/// Returns whether the residual is finite. After the first iteration its size is checked, which is infinite if an entry
+/// is not a number.
 bool StepNewton::finite(const StepReport& report) const {
   return report.iterations == 0 ? r_.allFinite() : std::isfinite(size_);
 }

@@ -30,7 +30,7 @@ void StepStops::advance(double time) {
   at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
   // A kink at a stop, up to rounding, is identified with that stop.
   if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
-  // An instant at a stop is identified with it too: equal steps that divide a period stay as they are.
+  // An instant close to a stop is identified with it too, so that equal steps that divide a period are not changed.
   for (const Sampler::Instants& each : instants_)
     if (const double at = next_instant(each, time, rounding(time)); at < stop_ - rounding(stop_)) {
       stop_ = at;

@@ -19,7 +19,7 @@ bool TangentPolicy::judge(double wasted, double cost, int factorisations) {
     if (wasted > 0) {
       end_cycle((spent_ + wasted) / std::max(served_, 1));
     } else {
-      constexpr double weight = 0.25;  // some steps take an iteration more than others
+      constexpr double weight = 0.25;  // weight in the mean: some steps take an iteration more than others
       renewed_cost_ = is_renewed_cost_known() ? renewed_cost_ + weight * (cost - renewed_cost_) : cost;
       renewed_age_ = 0;
       if (renewals_left_ > 0) --renewals_left_;

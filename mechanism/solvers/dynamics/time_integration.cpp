@@ -21,7 +21,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Distance from a kink at which its two sides can be distinguished despite rounding [s].
+/// Returns the distance from a kink at which its two sides can be distinguished despite rounding [s].
 double just_off(double time, double h) {
   return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }
@@ -43,8 +43,8 @@ VectorX prescribed_rates(const System& system, const Environment& environment, S
   return rates;
 }
 
-/// Returns whether one of them differs just before and just after a time: by more than rounding of its own value, and
-/// of the rates with which the mechanism moves.
+/// Returns whether one of these rates differs just before and just after a time by more than rounding errors, either of
+/// its own value or of the rates with which the mechanism moves.
 bool prescribed_rates_jump(const System& system, const Environment& environment, const State& state, double off) {
   const VectorX before = prescribed_rates(system, environment, state, state.time - off);
   const VectorX after = prescribed_rates(system, environment, state, state.time + off);
@@ -164,7 +164,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   samplers_.take(state, environment_);
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
-  if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
+  if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // removes the reactions of the previous state
   set_redundant_aside(system_, environment_, state);
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
@@ -182,7 +182,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
       } catch (const ComputationError&) {
         state = begun;
         report = {};
-        // The new ones come first.
+        // The new holds come last, because the last hold in the list is refused first.
         std::vector<int> holds = active_holds(system_, state);
         if (holds.empty()) throw;
         std::stable_partition(holds.begin(), holds.end(), [&](int k) {
@@ -269,7 +269,7 @@ StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated
       begin_trial(h, end, 0, report);
     newton_.solve(step_, report);
   } catch (const ComputationError& error) {
-    // A component cannot be evaluated, or the equations are singular. Closer to the last state this may not occur.
+    // A component cannot be evaluated, or the equations are singular. A shorter step may not have this problem.
     report.refusal = error.what();
     newton_.explain(step_, report);
   }
@@ -337,8 +337,8 @@ StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
   return report;
 }
 
-/// Components update their memory at the end of the trial. Samples that change values begin another branch: they are
-/// taken when it begins, so that the accepted state is the one just before them.
+/// Accepts the trial, at whose end components update their memory. Samples that change values begin another branch.
+/// They are taken when it begins, so that the accepted state is the one just before them.
 /// @returns whether the motion goes on on another branch
 bool TimeIntegration::accept_trial() {
   State& trial = step_.trial();
@@ -351,7 +351,7 @@ bool TimeIntegration::accept_trial() {
   return true;
 }
 
-/// The scheme's own values do not apply to a short span.
+/// Accepts a short span, to which the scheme's own values do not apply.
 bool TimeIntegration::accept_short() {
   const bool branch_left = accept_trial();
   step_.accept();

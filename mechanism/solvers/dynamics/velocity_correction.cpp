@@ -109,8 +109,8 @@ void VelocityCorrection::watch(SchemeStep& step) {
 }
 
 std::string VelocityCorrection::caution(const SchemeStep& step) {
-  // The stabilised form tolerates at least seven times as much: 0.55 rad with rho = 0.95, 1.1 with 0.8 (linearised,
-  // too).
+  // The stabilised form permits at least seven times as much: 0.55 rad with rho = 0.95, 1.1 with 0.8. This holds for
+  // the linearised equations as well.
   const double most = (form_ == ConstraintForm::stabilised ? 7 : 1) * step.scheme().most_turn();
   const double time = step.state().time;
   const std::string turns =
@@ -124,7 +124,7 @@ std::string VelocityCorrection::caution(const SchemeStep& step) {
   constexpr double tolerable = 0.01;
   const auto lag = [&](double turn) { return -step.scheme().position_error() * turn * turn; };
   if (lag(turn_) > tolerable) {
-    // The rotation of a body is no rotation of the motion: a wheel on its axle does not lag.
+    // A rotation that does not bend the path, such as that of a wheel on its axle, causes no lag.
     if (const double turn = turn_of_motion(step); lag(turn) > tolerable)
       return fmt::format(
           "t = {:.6g} s: the path bends by {:.2g} rad in a step of {:.3g} s; such steps are stable, but positions fall "

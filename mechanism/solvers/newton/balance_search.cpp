@@ -96,10 +96,10 @@ bool BalanceSearch::balanced() const {
   return true;
 }
 
-/// @returns false if the balances decrease along the direction: they are then no balances
+/// @returns false if the balances decrease along the direction, which real balances do not
 bool BalanceSearch::set_direction() {
-  // The factors are far below values that change Newton's direction, and far above the rounding of a group of junctions
-  // that are only joined with each other.
+  // The additions to the diagonal are far below values that change Newton's direction, and far above the rounding
+  // errors of a group of junctions that are only joined with each other.
   constexpr double own = 1e-9, of_all = 1e-12;
   const double most = J_.cwiseAbs().maxCoeff();
   if (!std::isfinite(most) || most == 0) return false;
@@ -116,7 +116,7 @@ void BalanceSearch::move(State& state, double part) const {
   }
 }
 
-/// Returns d . f, infinite if a component cannot be evaluated: the step must then be shorter.
+/// Returns d . f. It is infinite if a component cannot be evaluated, so that the step becomes shorter.
 double BalanceSearch::slope(State& state, const Environment& environment, double part) {
   move(state, part);
   try {
@@ -184,7 +184,7 @@ BalanceSearch::Way BalanceSearch::bracket(State& state, const Environment& envir
 
 /// Writes why there is no balance: every value up to the bound of the unknown `blocked` leaves it on the same side.
 void BalanceSearch::explain(int blocked) {
-  // Joined junctions move together.
+  // Junctions that move by more than this fraction of the motion of `blocked` are joined with it.
   constexpr double together = 0.5;
   double left = 0;
   for (Eigen::Index i = 0; i < d_.size(); ++i)

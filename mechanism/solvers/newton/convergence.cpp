@@ -130,7 +130,7 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 bool Convergence::out_of_reach(double size, const ResidualScale& scale) const {
   if (!measured_) return false;
   const Tolerances allowed = tolerances(scale);
-  double growth = 1;  // growth of the tolerances since then
+  double growth = 1;  // growth of the tolerances since the rounding was measured
   for (std::size_t k = 0; k < kind_count; ++k)
     if (allowed[k] > measured_by_[k] * growth) growth = allowed[k] / measured_by_[k];
   constexpr double rounding = 1e-9;

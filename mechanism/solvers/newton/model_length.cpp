@@ -14,7 +14,7 @@ double model_length(const State& state) {
   double squared = 0;
   for (const NodeState& node : state.nodes) squared = std::max(squared, node.x.squaredNorm());
   const double length = std::sqrt(squared);
-  return length > rounding ? length : 1;  // without nodes elsewhere than at the origin
+  return length > rounding ? length : 1;  // 1 if all nodes are at the origin
 }
 
 double spread(const State& state) {

@@ -27,7 +27,7 @@ void NewtonMatrix::take_pattern() {
 void NewtonMatrix::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
                             const VectorX* dq, const VectorX* extra) {
   const bool algebraic = weights.stiffness != 1 && !system_.algebraic().empty();
-  // The stiffness comes first: no later tangent at the same state has entries that it lacks.
+  // The stiffness is assembled first, because it has all entries that later tangents at the same state may have.
   if (algebraic) system_.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, stiffness_);
   system_.tangent(state, environment, weights, dq, values_);
   weights_ = weights;
@@ -59,7 +59,7 @@ bool NewtonMatrix::try_factor(const State& state, const Environment& environment
                               const VectorX* dq, const VectorX* extra) {
   assemble(state, environment, weights, dq, extra);
   if (!factors_ || factored_pattern_ != pattern_) {
-    factors_.reset();  // its pattern must outlive it
+    factors_.reset();  // the factors are destroyed before the pattern to which they refer
     factored_pattern_ = pattern_;
     factors_.emplace(factored_pattern_->condensed);
   }

@@ -16,7 +16,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Returns whether all conditions are satisfied initially: the most frequent case, checked without a factorisation.
+/// Returns whether all conditions are satisfied initially. This is the most frequent case, and is checked without a
+/// factorisation.
 bool holds(const System& system, const Environment& environment, const State& state,
            const StartConditions& conditions) {
   constexpr double satisfied = 1e-13, repeated = 1e-6;  // limit for redundant constraints, as in check_set_aside()

@@ -27,7 +27,7 @@ void BranchSign::choose_rows(const State& state) {
     entries.emplace_back(row[static_cast<std::size_t>(of - first)], column);
     places_.push_back(place);
   });
-  // Both are ordered by columns with ascending rows: the places are in the order of the new pattern.
+  // Both patterns are ordered by columns with ascending rows, so that the places are in the order of the new pattern.
   pattern_ = std::make_unique<SparsePattern>(rows, std::move(entries));
   factors_ = std::make_unique<SparseLU>(*pattern_);
 }
@@ -46,7 +46,8 @@ int BranchSign::sign_at(const Environment& environment, const State& state) {
   return known_sign_;
 }
 
-/// Returns whether the sign is known at the state: the end of a step is usually the beginning of the next one.
+/// Returns whether the sign is known at the state. This is frequent, because the end of a step is usually the beginning
+/// of the next one.
 bool BranchSign::is_known(const State& state) const {
   if (state.time != known_time_ || known_at_.size() != state.nodes.size()) return false;
   for (std::size_t i = 0; i < known_at_.size(); ++i)

@@ -123,7 +123,7 @@ State ClosingEquations::shaken(const State& state) const {
   VectorX dq = VectorX::Zero(system_.dofs());
   for (int i = 0; i < system_.dofs(); ++i) {
     if (still_[static_cast<std::size_t>(i)]) continue;
-    const double share = std::sin(1 + 1.7 * i);  // not aligned with any direction
+    const double share = std::sin(1 + 1.7 * i);  // the direction is not aligned with any axis
     if (system_.kind(i) == Kind::rotation) dq[i] = angle * share;
     if (system_.kind(i) == Kind::translation) dq[i] = 2 * part * half_extent_ * share;
   }

@@ -138,7 +138,7 @@ VectorX gather_gaps(ClosingEquations& equations, const std::vector<bool>& soft, 
   constexpr int iterations = 100;
   const System& system = equations.system();
   VectorX compliance, forces;
-  // Half the sum of squared gaps, each times its stiffness: the energy of the rows as springs.
+  // The energy of the rows as springs is half the sum of squared gaps, each times its stiffness.
   const auto energy = [&](const Gaps& gaps) { return 0.5 * gaps.values.cwiseAbs2().cwiseQuotient(compliance).sum(); };
   double floor = floor_part;
   for (int iteration = 0; iteration < iterations; ++iteration) {

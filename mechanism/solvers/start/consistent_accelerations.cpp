@@ -49,8 +49,8 @@ class AccelerationEquations {
   /// Solves the case in which all unknowns enter linearly.
   void solve_linear() {
     if (!saddle_.serves()) return solve_afresh();
-    // Factors of nearby positions are used with refinement until the residual is only rounding. (Differences of such
-    // accelerations are computed.)
+    // Factors of nearby positions are used with refinement until the residual is only rounding, because differences of
+    // such accelerations are computed.
     constexpr int most = 20;
     constexpr double rounding = 1e-11;
     double before = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ class AccelerationEquations {
       if (refusal) std::rethrow_exception(refusal);
       throw_unsolved(left, {});
     }
-    // The search is repeated, with a search for balances that may be constant at each iterate.
+    // The search is repeated, and each iterate includes a search for balances, whose slope may be zero.
     state_ = begun;
     a_ = a_begun;
     evaluate();
@@ -133,7 +133,7 @@ class AccelerationEquations {
     const VectorX guess = state_.multiplier;
     const State first = state_;
     const VectorX a_first = a_;
-    // The next initial guess are the earlier reactions, if there are any: few change much at an event.
+    // The search starts from the earlier reactions, if there are any, because few of them change much at an event.
     if (known_.allFinite() && !known_.isZero(0)) {
       state_.multiplier = known_;
       system_.for_each_idle(state_, [&](int multiplier) { state_.multiplier[multiplier] = 0; });
@@ -164,7 +164,7 @@ class AccelerationEquations {
     saddle_.factor(environment_, state_);
     solve();
     move(1);
-    saddle_.serve_no_more();  // other positions may follow
+    saddle_.serve_no_more();  // these factors do not serve other positions
   }
 
   void evaluate() {
@@ -182,8 +182,8 @@ class AccelerationEquations {
     saddle_.solve(r_, step_);
     const VectorX& floor = saddle_.floor();
     if (!(floor.array() > 0).any()) return;
-    // Forces that only the floor of the masses balances would cause unlimited accelerations. They equal floor times
-    // acceleration (up to the size of the floor everywhere else), and are removed.
+    // Forces that are only balanced by the floor of the masses would cause unlimited accelerations. The terms floor
+    // times acceleration equal these forces, and are elsewhere only of the size of the floor; they are removed.
     r_.head(system_.dofs()) += floor.cwiseProduct(step_.head(system_.dofs()));
     saddle_.solve(r_, step_);
   }
@@ -249,8 +249,8 @@ class AccelerationEquations {
     return size <= accurate || (size <= rounding && size > 0.5 * before);
   }
 
-  /// Newton's method with the derivatives by multipliers, from the present state. Steps over kinks are halved if the
-  /// next one would be longer.
+  /// Searches by Newton's method with the derivatives by multipliers, from the present state. Steps over kinks are
+  /// halved if the next one would be longer.
   Search search() {
     constexpr int most = 50;
     Search result;
@@ -295,14 +295,14 @@ class AccelerationEquations {
     return result;
   }
 
-  /// Only multipliers measure the convergence: the forces depend on them.
+  /// Returns weights by which only multipliers measure the convergence, because the forces depend on them.
   VectorX weights() const {
     VectorX weights = VectorX::Zero(system_.size());
     weights.tail(system_.multipliers()).setOnes();
     return weights;
   }
 
-  /// Newton's method for the algebraic unknowns and all unknowns that depend on them.
+  /// Iterates by Newton's method for the algebraic unknowns and all unknowns that depend on them.
   /// @param search  search for balances, or nullptr: none
   /// @returns 0 if it has converged, otherwise the number of iterations
   int iterate_for_algebraic(BalanceSearch* search) {
@@ -330,7 +330,8 @@ class AccelerationEquations {
     }
   }
 
-  /// There may be no balance while the other unknowns have not converged: the state is then used unchanged.
+  /// Searches for balances. There may be none while the other unknowns have not converged; the state is then used
+  /// unchanged.
   void balance(BalanceSearch& search) {
     search.find(environment_, state_);
     evaluate();
@@ -361,7 +362,7 @@ class AccelerationEquations {
   }
 
   /// Moves by a fraction of the step for which the next one, with the same factors, is shorter (P. Deuflhard, Newton
-  /// Methods for Nonlinear Problems, 2004, 3.3): there is no other way to compare residuals of different units.
+  /// Methods for Nonlinear Problems, 2004, 3.3). Steps are compared because residuals have different units.
   void shorten(double size) {
     const State base = state_;
     const VectorX a = a_, step = step_;
@@ -381,7 +382,7 @@ class AccelerationEquations {
     evaluate();
   }
 
-  /// @param why  a balance that was not found, or empty
+  /// @param why  reason why a balance was not found, or empty
   [[noreturn]] void throw_unsolved(int iterations, const std::string& why) {
     if (!why.empty()) throw ComputationError(fmt::format("t = {:.6g} s: {}", state_.time, why));
     evaluate();

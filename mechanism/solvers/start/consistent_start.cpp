@@ -62,7 +62,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   const State begun = state;
   make_accelerations_consistent(system, environment, state, saddle);
   exchange_one_sided(system, environment, begun, state, report, saddle);
-  // Start values that depend on reactions are known only now, and may change the reactions.
+  // Start values that depend on reactions can only be computed now, and may change the reactions.
   constexpr int most = 20;
   for (int k = 0; k < most && begin_first_order(system, environment, state); ++k)
     make_accelerations_consistent(system, environment, state, saddle);

@@ -20,9 +20,11 @@ State predicted(const System& system, const State& state, double time) {
 }
 
 bool ContinuousMotion::fits(const State& from, const State& to) {
-  constexpr double most = 0.6;         // relative to the larger one: the trapezoidal rule has an error of h^2 w^2/12
-  constexpr double invisible = 1e-9;   // motion of a step, relative to the extent
-  constexpr double standstill = 1e-6;  // relative to the fastest so far: a drive at rest moves only by rounding
+  // Largest error, relative to the change of the rates; the trapezoidal rule has an error of h^2 w^2/12.
+  constexpr double most = 0.6;
+  constexpr double invisible = 1e-9;  // motion of a step, relative to the extent
+  // Error relative to the largest rate so far: a drive at rest moves only by rounding.
+  constexpr double standstill = 1e-6;
   VectorX v(system_.dofs()), a(system_.dofs()), v_to(system_.dofs()), a_to(system_.dofs());
   system_.get_rates(from, v, a);
   system_.get_rates(to, v_to, a_to);
@@ -51,7 +53,7 @@ State ContinuousMotion::advance(const State& from, double time, bool jumps, int 
     try {
       return advance_in_halves(from, time, jumps, depth);
     } catch (const ComputationError&) {
-      return next;  // rounding decides so near to a singular position; the longer step is more reliable
+      return next;  // so near to a singular position rounding decides, and the longer step is more reliable
     }
   }
   if (jumps && depth >= deepest) return next;

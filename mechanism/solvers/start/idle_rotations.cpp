@@ -14,7 +14,7 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr double rounding = 1e-12;
-constexpr double closed_to = 1e-9;  // gaps of loops that were closed leave such moments
+constexpr double closed_to = 1e-9;  // accuracy of closed loops, whose gaps cause such moments
 
 /// A node with a basis of the motions that move no mass (its unknowns x directions).
 struct Candidate {
@@ -22,8 +22,8 @@ struct Candidate {
   Eigen::MatrixXd motions;
 };
 
-/// Rows of the nodes of all candidates in a matrix, in one pass over it. Each: (unknowns of the node, columns that they
-/// have entries in).
+/// Returns, for each candidate, the rows of its node (unknowns of the node, columns that they have entries in). It
+/// takes one pass over the matrix.
 std::vector<Eigen::MatrixXd> rows_of(const std::vector<Candidate>& candidates, const SparsePattern& pattern,
                                      const std::vector<double>& values) {
   struct Rows {
@@ -52,7 +52,7 @@ std::vector<Eigen::MatrixXd> rows_of(const std::vector<Candidate>& candidates, c
   return all;
 }
 
-/// Motions of a node without mass, from its block of the mass matrix.
+/// Returns the motions of a node without mass, from its block of the mass matrix.
 Eigen::MatrixXd massless(const SparsePattern& pattern, const std::vector<double>& mass, int begin, int count) {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(count, count);
   for (int row = 0; row < count; ++row)
@@ -66,7 +66,7 @@ Eigen::MatrixXd massless(const SparsePattern& pattern, const std::vector<double>
   return scale.asDiagonal() * eigen.eigenvectors().leftCols(without);
 }
 
-/// Largest action that rows could have on a motion: translations and rotations have their own units.
+/// Returns the largest action that rows could have on a motion. Translations and rotations have their own units.
 double largest_action(const Eigen::VectorXd& motion, const Eigen::MatrixXd& rows) {
   const Eigen::Index others = motion.size() - 3;
   const auto largest = [&](Eigen::Index begin, Eigen::Index count) {
@@ -77,12 +77,13 @@ double largest_action(const Eigen::VectorXd& motion, const Eigen::MatrixXd& rows
   return largest(0, others) + largest(others, 3);
 }
 
-/// Leaves the motions on which the rows of a node do not act.
+/// Keeps only the motions on which the rows of a node do not act.
 void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd acting = candidate.motions.transpose() * rows;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(acting * acting.transpose());
   const Eigen::MatrixXd turned = candidate.motions * eigen.eigenvectors();
-  // Squares of small actions are rounding: each direction is tested by its own products.
+  // The eigenvalues are squares, in which small actions are only rounding. Each direction is therefore tested by its
+  // products.
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < turned.cols(); ++k) {
     const double size = largest_action(turned.col(k), rows);
@@ -91,17 +92,17 @@ void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   candidate.motions = Eigen::MatrixXd(turned(Eigen::all, left));
 }
 
-/// Returns the state with its loops closed, if they can be.
+/// Returns the state with its loops closed, if this is possible.
 State closed(const System& system, const Environment& environment, State state) {
   StartReport report;
   try {
     assemble_positions(system, environment, state, report);
-  } catch (const ComputationError&) {  // the start of the analysis names the loop
+  } catch (const ComputationError&) {  // the start of the analysis reports the loop
   }
   return state;
 }
 
-/// Returns a position in the neighbourhood with other rates, the same in each run.
+/// Returns a nearby position with other rates, which are the same in each run.
 State moved(const System& system, const Environment& environment, const State& start) {
   constexpr double angle = 0.1;
   const double distance = 0.1 * model_length(start);
@@ -117,7 +118,8 @@ State moved(const System& system, const Environment& environment, const State& s
   return state;
 }
 
-/// Returns whether a force of the residual acts along a motion. Other forces on the node give the size of rounding.
+/// Returns whether a force of the residual acts along a motion. The other forces on the node determine the size of
+/// rounding errors.
 bool is_pushed(const Candidate& candidate, const VectorX& residual) {
   const auto own = residual.segment(candidate.begin, candidate.count);
   const double size = candidate.motions.cwiseAbs().maxCoeff() * own.cwiseAbs().maxCoeff();

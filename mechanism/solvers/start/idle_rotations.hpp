@@ -1,5 +1,5 @@
-// Rotations of nodes that have no inertia and that nothing needs: those of a point mass on springs, and that of a rod
-// about its line between spherical joints.
+// Rotations of nodes that have no inertia, and on which no force or constraint acts: those of a point mass on springs,
+// and that of a rod about its line between spherical joints.
 #pragma once
 
 #include <vector>

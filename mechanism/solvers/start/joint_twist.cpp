@@ -16,7 +16,8 @@ namespace {
 
 constexpr double twist_agreement = 1e-8;  // relative to the terms of the rates
 
-/// Basis of the motions of a body about a place: translations in units of a length, and rotations.
+/// Returns the k-th vector of a basis of the motions of a body about a place: translations in units of a length, and
+/// rotations.
 RigidVelocity unit_motion(int k, const Vector3& place, double length) {
   RigidVelocity motion{place, Vector3::Zero(), Vector3::Zero()};
   (k < 3 ? motion.v : motion.omega) = (k < 3 ? length : 1.0) * Vector3::Unit(k % 3);
@@ -74,8 +75,8 @@ bool JointTwist::allows(std::size_t member, const RigidVelocity& motion) {
     const NodeState& own = state_.nodes[static_cast<std::size_t>(node)];
     const RigidVelocity at_rest{own.x, Vector3::Zero(), Vector3::Zero()};
     const VectorX rates = constraint_rates(member, node, motion), rest = constraint_rates(member, node, at_rest);
-    // `size` is the possible contribution of the whole motion to each row: at the node itself the motion may be zero,
-    // up to rounding.
+    // `size` is the largest contribution to each row that a motion of this speed can have. At the node itself the
+    // motion may be zero, up to rounding.
     const double speed = (motion.v.norm() + motion.omega.norm() * length_) / length_;
     VectorX size = rest.cwiseAbs();
     for (int k = 0; k < 6; ++k) {

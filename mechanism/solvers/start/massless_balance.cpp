@@ -25,8 +25,8 @@ VectorX column_sums(const System& system, const State& state, const Environment&
   return sums;
 }
 
-/// Returns the forces of amplitudes displaced by their scale, as a reference for their forces. It is zero for all other
-/// unknowns.
+/// Returns, for each amplitude, the force that is due to a displacement by its scale, as a reference for its forces. It
+/// is zero for all other unknowns.
 VectorX own_forces(const System& system, const State& state, const Environment& environment) {
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, values);
@@ -116,7 +116,8 @@ class Balance {
         continue;
       }
       double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
-      // An amplitude that is only moved by constraints (a place on a curve) has only rounding errors of their forces.
+      // An amplitude that is only moved by constraints (a place on a curve) has only the rounding errors of their
+      // forces.
       if (own_forces_[i] == 0 && system_.kind(i) == Kind::amplitude) whole = std::max(whole, scale_[Kind::translation]);
       const double size = std::abs(r_[i]) / (balanced * whole);
       if (!(size > 1) || size <= size_) continue;
@@ -139,7 +140,7 @@ class Balance {
         r_[r_.size() - system_.multipliers() + k] = duration * rate[k];
   }
 
-  /// Both solutions hold the dofs with mass only by the mass, as in a step of zero duration.
+  /// In both solutions, dofs with mass are held only by the mass, as in a step of zero duration.
   bool solve_positions(const State& state) { return solve(state, 1, 0, true); }
   bool solve_velocities(const State& state) { return solve(state, 0, 1, false); }
   bool solve(const State& state, double stiffness, double damping, bool holds_damped) {

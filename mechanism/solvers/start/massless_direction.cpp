@@ -78,7 +78,7 @@ void measure_hold(const System& system, const std::vector<double>& values, const
 }  // namespace
 
 void check_massless_directions(const System& system, const State& state) {
-  // The state is at rest and without loads: a load that rotates with the node would seem to hold it.
+  // The state is at rest and without loads, because a load that rotates with the node would seem to hold it.
   State still = state;
   system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
   Environment unloaded;

@@ -57,7 +57,8 @@ class Exchange {
     return wrong;
   }
 
-  /// @returns a set in which nothing is wrong; otherwise one without violated constraints, if one is violated at first
+  /// @returns a set in which nothing is wrong. If there is none and a constraint is violated at first, it is a set
+  /// without violated constraints.
   std::optional<Flags> find(const Wrong& at_first) {
     constexpr std::size_t most = 200;  // trials
     std::optional<Flags> fair;
@@ -89,8 +90,8 @@ class Exchange {
     return flags.empty() ? char{Idle::active} : flags[static_cast<std::size_t>(hold.multiplier)];
   }
 
-  /// Lets sets wait in which a violated constraint takes the place of an active one, or one that is set aside the place
-  /// of one that pulls.
+  /// Adds sets to the queue in which a violated constraint replaces an active one, or one that is set aside replaces
+  /// one that pulls.
   void try_exchanges(const Flags& flags, const Wrong& wrong) {
     const auto exchange = [&](std::size_t takes, std::size_t yields) {
       if (flag(flags, holds_[takes]) != Idle::redundant || flag(flags, holds_[yields]) != Idle::active) return;
@@ -111,7 +112,7 @@ class Exchange {
     system_.for_each_redundant(trial, [&](int k) { aside.push_back(k); });
     for (const int k : find_redundant(system_, environment_, trial))
       if (!std::binary_search(aside.begin(), aside.end(), k)) return false;
-    trial.reaction.resize(0);  // that of another set
+    trial.reaction.resize(0);  // removes the reactions of another set
     StartReport unused;
     saddle_.serve_no_more();
     try {

@@ -37,7 +37,7 @@ class RigidStart {
         state_(state),
         twist_(system, environment, state) {
     for (const std::size_t joint : conditions.carrying) joints_.push_back(find(joint));
-    // The outermost is first: the part behind it contains those behind the others.
+    // The outermost joint is first, because the part behind it contains the parts behind the others.
     std::stable_sort(joints_.begin(), joints_.end(),
                      [](const Carrying& a, const Carrying& b) { return a.nodes.size() > b.nodes.size(); });
   }
@@ -94,7 +94,7 @@ class RigidStart {
 
   Carrying find(std::size_t joint) {
     const std::vector<int>& nodes = system_.slots()[joint].nodes;
-    std::vector<std::pair<int, int>> sides;  // moving, base; the second node moves, if possible
+    std::vector<std::pair<int, int>> sides;  // moving side, base; the second node is the moving side if it can move
     for (const auto& [moving, base] : {std::pair(nodes[1], nodes[0]), std::pair(nodes[0], nodes[1])})
       if (!all_held(system_.model().node(moving))) sides.emplace_back(moving, base);
     std::string way_back;
@@ -134,7 +134,8 @@ class RigidStart {
           describe(by.joint), node.name, turns));
   }
 
-  /// Returns whether any member depends on the rotation of a node: an interface that only transmits forces does not.
+  /// Returns whether any member depends on the rotation of a node. None does at an interface that only transmits
+  /// forces.
   bool feels_rotation(const Carrying& by, int index) const {
     constexpr double turn = 0.1;  // [rad]
     State turned = state_;
@@ -162,7 +163,7 @@ class RigidStart {
     if (system_.multipliers() == 0) return;
     VectorX rates(system_.multipliers()), unused(system_.multipliers());
     system_.constraint_rates(state_, environment_, rates, unused);
-    // `sizes` is the possible contribution of the whole motions to each row: at a node a motion may be zero, up to
+    // `sizes` is the largest contribution of these motions to each row. At a node the motion may be zero, up to
     // rounding.
     double speed = 0;
     for (const Carrying& each : joints_)

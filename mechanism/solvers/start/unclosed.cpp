@@ -82,8 +82,8 @@ std::string condition_text(const ClosingEquations& equations, int row) {
                         : fmt::format("the start value {:.6g} {} of {}", *condition.value, coordinate.units, name);
 }
 
-/// Chooses the owner that stays open: a start value has priority, since the parts can be assembled without it;
-/// otherwise the last in the file.
+/// Chooses the owner that stays open. A start value has priority, because the parts can be assembled without it;
+/// otherwise the last owner in the file is chosen.
 const Owner* choose_opening(const ClosingEquations& equations, const std::vector<Owner>& owners, const VectorX& gaps) {
   double most = 0;
   for (const Owner& owner : owners) most = std::max(most, largest(equations, owner, gaps));

@@ -18,7 +18,7 @@ MatrixX null_space(const System& system, const NewtonMatrix& linear, const Vecto
   VectorX r = VectorX::Zero(system.size()), projected(system.size());
   for (int k = 0; k < most; ++k) {
     VectorX trial(system.dofs());
-    for (Eigen::Index i = 0; i < trial.size(); ++i)  // not aligned with any direction
+    for (Eigen::Index i = 0; i < trial.size(); ++i)  // the direction is not aligned with any axis
       trial[i] =
           std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * k * static_cast<double>(i + 1)) / std::sqrt(weights[i]);
     trial /= std::sqrt(trial.dot(weights.cwiseProduct(trial)));

@@ -37,7 +37,7 @@ class EndCondition final : public PathCondition {
     return (end_.direction.isZero(0) ? u.norm() : end_.direction.dot(u)) - end_.displacement;
   }
   std::optional<double> load_factor() const { return end_.load_factor; }
-  /// Sets the base of the trials.
+  /// Sets the state from which the trials start.
   void set_base(const State& base) { base_ = &base; }
   double value(const PathTrial& trial) const override { return gap(trial.state, trial.factor); }
   double slope(const PathTrial& trial, const VectorX& along, double factor) const override {
@@ -95,7 +95,7 @@ class Path {
   bool ended() const { return gap_ == 0; }
   double factor() const { return factor_; }
 
-  /// Advances to the next point: a step, the limit point within it, or the end.
+  /// Advances to the next point: the end of a step, a limit point within the step, or the end of the path.
   PathPoint advance() {
     for (;; refuse()) {
       trial_.delta = arc_ * tangent_.direction;
@@ -160,12 +160,12 @@ class Path {
       throw ComputationError(
           "static path: nothing moves with the load factor: there are no loads that do work, or the analyses before "
           "have brought about all of them");
-    // The change of the distance from the end per load factor.
+    // The distance from the end changes by `closing` per unit of load factor.
     const double part = 1e-6 / response;
     PathTrial trial{part * b, factor_ + part, state_};
     step_.place(state_, trial);
     const double closing = (end_.gap(trial.state, trial.factor) - gap_) / part;
-    double way = std::abs(gap_ / closing);  // in load factors
+    double way = std::abs(gap_ / closing);  // distance from the end in load factors
     if (!std::isfinite(way)) way = factor_ == 1 ? 1 : std::abs(1 - factor_);
     const bool towards_end = factor_ != 0 || path_.end.load_factor;
     const double sign = towards_end && closing * gap_ > 0 ? -1 : 1;
@@ -208,14 +208,15 @@ class Path {
     return correct(ArcCondition(step_, arc), arc);
   }
 
-  /// The slope of the load factor changes its sign between the base and the trial: moves the trial to the zero, or to
-  /// the kink at which the slope jumps. @returns whether it was found
+  /// Moves the trial to the point between the base and the trial at which the slope of the load factor changes its
+  /// sign. This is a zero, or a kink at which the slope jumps. @returns whether it was found
   bool locate_limit(Tangent& after, double& length) {
     constexpr int most = 60;
     constexpr double accurate = 1e-12, kink = 1e-10;  // relative tolerances of the load factor, and of arc to step
     const PathTrial far = trial_;
     const double size = std::max(std::abs(far.factor), std::abs(factor_)) + std::abs(tangent_.slope) * length;
-    // Just after a limit point the slope is nearly zero and inaccurate.
+    // Just after a limit point the slope is nearly zero and inaccurate. The opposite of the slope at the far end takes
+    // its place.
     RootBracket bracket(0, at_limit_ ? -after.slope : tangent_.slope, length, after.slope);
     for (int k = 0; k < most; ++k) {
       const double arc = bracket.interpolated();
@@ -247,7 +248,8 @@ class Path {
     return {};
   }
 
-  /// Moves the trial back to a condition between the base and it, after about a fraction of the distance.
+  /// Moves the trial back to a condition that is met between the base and the trial, first to about this fraction of
+  /// the distance.
   bool meet(EndCondition& condition, double part, double length) {
     trial_.delta *= part;
     const std::optional<double> factor = condition.load_factor();
@@ -264,8 +266,8 @@ class Path {
     return mode ? mode->stiffness : 0;
   }
 
-  /// The number of unstable motions changes between the base and the trial, an arc `length` away: the point is located
-  /// by the zero of the smallest stiffness, within the bracket of the counts. The trial is not changed.
+  /// Locates the point between the base and the trial, an arc `length` away, at which the number of unstable motions
+  /// changes. It is the zero of the smallest stiffness within the bracket of the counts. The trial is not changed.
   CriticalPoint locate_bifurcation(int after, double length) {
     constexpr int most = 40;
     constexpr double accurate = 1e-7;
@@ -282,7 +284,7 @@ class Path {
       std::optional<int> here;
       if (correct_at(arc, far, length)) here = stability_.count(trial_.state, ramp_.environment(trial_.factor));
       point.factor = trial_.factor;
-      if (!here) break;  // singular, or nearly: the point is found
+      if (!here) break;  // the matrix is singular, or nearly: the point is found
       near = trial_;
       bracket.replace(*here == point.before, arc, softest(trial_));
     }
@@ -298,7 +300,7 @@ class Path {
       return;
     }
     point.unstable = stability_.count(trial_.state, ramp_.environment(trial_.factor));
-    // After a limit point the number of unstable motions changes by one.
+    // A limit point also changes the number of unstable motions, and is not a bifurcation.
     if (unstable_ && point.unstable && limits_ == 0 && *point.unstable != *unstable_)
       point.bifurcation = locate_bifurcation(*point.unstable, length);
     unstable_ = point.unstable;

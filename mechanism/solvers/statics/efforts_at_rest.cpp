@@ -42,7 +42,7 @@ VectorX EffortsAtRest::rounding_floor() const {
 VectorX EffortsAtRest::answer(const SoughtEfforts& efforts, const Environment& environment, const State& state,
                               const VectorX& step) {
   constexpr double way = 1e-6;  // relative to the extent, or [rad]: small, and so are its square and relative rounding
-  constexpr double most = 1e9;  // if only forces change
+  constexpr double most = 1e9;  // factor on the step if only forces change
   const System& system = efforts.system();
   const double length = std::max(model_extent(state), 1e-30);
   double size = 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double longest = 0.3;       // step of `relax`: relative to the mechanism's size, or [rad]
 constexpr double longest_turn = 2.0;  // step of Newton's method [rad]
-constexpr double least_share = 0.1;   // for a shortened step
+constexpr double least_share = 0.1;   // smallest fraction of a step
 
 }  // namespace
 
@@ -87,7 +87,7 @@ int Equilibrium::attempt_once(const State& state, const Iterations& iterations) 
   return count;
 }
 
-/// Describes open contacts: they may be the reason why a part lacks a support.
+/// Describes open contacts, which may be the reason why a part lacks a support.
 std::string Equilibrium::what_is_open(const State& state) const {
   std::string text;
   const auto& members = system_.model().members();
@@ -216,7 +216,7 @@ double Equilibrium::longest_arm_of_inertia(const State& state, NewtonMatrix& mas
   return translation > 0 ? std::sqrt(rotation / translation) : 0;
 }
 
-/// Returns its largest rotation, or displacement relative to the mechanism's size.
+/// Returns the last solution's largest rotation, or its largest displacement relative to the mechanism's size.
 double Equilibrium::extent(const State& state) const {
   double displacement = 0;
   for (int i = 0; i < system_.dofs(); ++i)
@@ -224,7 +224,7 @@ double Equilibrium::extent(const State& state) const {
   return std::max(largest_turn(), displacement / std::max(length_, model_length(state)));
 }
 
-/// Returns the square of the time in which the accelerations at rest lead through a fraction of `longest`.
+/// Returns the square of the time in which the accelerations at rest cause a motion of a fraction of `longest`.
 double Equilibrium::first_tau_squared(const State& state) {
   State released = state;
   make_accelerations_consistent(system_, environment_, released);
@@ -272,11 +272,11 @@ double Equilibrium::largest_work(const State& state, const VectorX& z) const {
   return largest;
 }
 
-/// The last solution has the component z = P P delta along motions that only StaticTangent holds, with P = (K + H)^-1 H
-/// and its small stiffness H: P is one for indifferent motions and almost zero for all others. If the load along z, z
-/// r, is a rounding error relative to the largest forces at their lever arms (weights of a rotor's blades, given with
-/// limited accuracy, that balance each other), it is neglected: the motion along z is zero, and the force H z (z r)/(z
-/// H z) is omitted from then on.
+/// Removes loads on loose motions that balance each other. The last solution has the component z = P P delta along
+/// motions that only StaticTangent holds, with P = (K + H)^-1 H and its small stiffness H: P is one for indifferent
+/// motions and almost zero for all others. If the load along z, z r, is a rounding error relative to the largest forces
+/// at their lever arms (weights of a rotor's blades, given with limited accuracy, that balance each other), it is
+/// neglected: the motion along z is zero, and the force H z (z r)/(z H z) is omitted from then on.
 void Equilibrium::leave_balanced_out(const State& state) {
   constexpr double share = 1e-7;  // relative to the largest
   const int n = system_.dofs();
@@ -305,7 +305,8 @@ void Equilibrium::check_no_fall(const State& state) {
   if (extent(state) > runaway && tangent_.runs_loose(delta_)) fall(state);
 }
 
-/// The last solution continues along motions that only StaticTangent holds: far at once, or a little in each iteration.
+/// Throws because the last solution continues along motions that only StaticTangent holds, either far at once or a
+/// little in each iteration.
 void Equilibrium::fall(const State& state) {
   falls_ = true;
   throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));

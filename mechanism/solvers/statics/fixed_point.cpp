@@ -27,7 +27,7 @@ VectorX FixedPoint::next(const VectorX& x, const VectorX& image) {
     b(i, 0) = weighted.dot(g);
     for (Eigen::Index j = 0; j < count; ++j) A(i, j) = weighted.dot(dg_[static_cast<std::size_t>(j)]);
   }
-  // Linearly dependent steps leave c undetermined.
+  // If steps are linearly dependent, this term makes c unique.
   A.diagonal() *= 1 + 1e-12;
   if (!(A.diagonal().minCoeff() > 0)) return next;
   const MatrixX c = solve_symmetric(A, b);

@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double negligible_answer = 1e-9;  // for an entry of S, relative to its terms
+constexpr double negligible_answer = 1e-9;  // negligible size of an entry of S, relative to its terms
 
 /// Returns a small inertia, so that the responses can be computed even if only the controllers hold a part.
 double some_inertia(const System& system, const Environment& environment, const State& state, NewtonMatrix& linear) {
@@ -78,7 +78,7 @@ MatrixX scaled_part(const MatrixX& S, const std::vector<Eigen::Index>& chosen) {
   return part;
 }
 
-/// Returns the numbers of the unknowns, among those that may be held, that rates of zero determine.
+/// Returns the numbers, among the unknowns that may be held, of those that are determined by zero rates.
 std::vector<Eigen::Index> find_determined(const Answers& answers) {
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < answers.S.rows(); ++k) left.push_back(k);
@@ -96,7 +96,7 @@ std::vector<Eigen::Index> find_determined(const Answers& answers) {
     left.erase(found);
   }
   if (left.empty() || regular_inverse(scaled_part(answers.S, left))) return left;
-  // An unknown that depends on others is found by omitting it.
+  // An unknown that depends on others is found by leaving out one unknown at a time.
   for (std::size_t k = left.size(); k-- > 0;) {
     std::vector<Eigen::Index> fewer = left;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));

@@ -35,7 +35,7 @@ void LoadRamp::load_derivative(const State& state, double factor, Eigen::Ref<Vec
 }
 
 void LoadRamp::motion_derivative(const State& state, const Environment& environment, Eigen::Ref<VectorX> result) const {
-  // Rounding of positions relative to this fraction of a motion, and its square, are both small.
+  // With this fraction of a motion, the rounding of positions and the error of second order are both small.
   constexpr double part = 1e-5;
   VectorX behind(system_.size());
   State moved = state;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double small_displacement = 1e-3;  // relative to the mechanism's size
 constexpr double small_turn = 1e-2;          // [rad]
-constexpr double told_positions = 1e-9;      // relative to the positions
+constexpr double told_positions = 1e-9;      // relative to the distance of nodes from the origin
 constexpr double trapezoid = 0.2, change = 1;
 constexpr double share = 0.05;  // fraction of the largest motion that is the reference for nodes with a smaller motion
 
@@ -27,7 +27,8 @@ State displaced(const System& system, const State& base, double motion, const Ve
 }
 
 NodeMotions motions_along(const System& system, const State& base, const VectorX& delta, double motion) {
-  // The difference is over a fraction so short that rotations and prescribed motions are linear in it.
+  // The difference is taken over a fraction that is short enough for rotations and prescribed motions to be linear in
+  // it.
   constexpr double straight = 1e-4;
   double turn = motion != 0 ? 1 : 0;
   for (int i = 0; i < system.dofs(); ++i)

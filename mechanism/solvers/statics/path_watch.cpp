@@ -31,7 +31,7 @@ PathWatch::Verdict PathWatch::look(const Point& from, Point& to) {
   close_in(below, to.factor);
   Point above = to;
   if (follow(above, below.factor)) {
-    if (measure_.small(motions_between(below.state, above.state))) return verdict;  // it is only a kink
+    if (measure_.small(motions_between(below.state, above.state))) return verdict;  // the path has only a kink there
     verdict.landing = above;
   }
   verdict.jump = jump_between(below, above);
@@ -115,7 +115,8 @@ bool PathWatch::follow(Point& point, double factor, double least, const State* e
   return false;
 }
 
-/// Makes a step of the continuation. @returns the difference from the description by its ends: more than one is too far
+/// Makes a step of the continuation. @returns the difference from the description by its ends, relative to the
+/// permitted one
 double PathWatch::advance(const Point& here, const Continuation& at_begin, Point& trial, Continuation& at_end) {
   constexpr int corrections = 3;  // until the remainder is small
   const double change = trial.factor - here.factor, motion = ramp_.motion(trial.factor) - here.state.motion_factor;

@@ -89,9 +89,9 @@ void QuasiStaticMotion::find_path(const State& from, double time) {
   path_ = std::move(next);
 }
 
-/// Computes the residual at rest at a time after that of a state in equilibrium with f, after a fraction of the motion
-/// along the rates. Time does not advance if no support moves: drives act by their constraints, and explicit changes of
-/// loads deform without inertia.
+/// Computes the residual at rest for the forces f of a state in equilibrium, a time `after` that state, and after a
+/// fraction of the motion along the rates. Time does not advance if no support moves, because drives act by their
+/// constraints, and explicit changes of loads cause deformations without inertia.
 QuasiStaticMotion::Extended QuasiStaticMotion::at_rest(const State& still, double after, double part) const {
   const double way = part * after, half_square = 0.5 * after * after;
   State moved = still;

@@ -30,7 +30,7 @@ VectorX largest_of_groups(const std::vector<int>& group, const VectorX& x) {
   return result;
 }
 
-/// Removes entries that are rounding errors of others: they would give sizes to unknowns without stiffness
+/// Removes entries that are rounding errors of others, because they would give sizes to unknowns without stiffness
 /// (displacements of a rigid body).
 void leave_rounding_out(const System& system, double length, Sparse& K) {
   constexpr double rounding = 1e-14;
@@ -83,14 +83,15 @@ std::optional<Stability::Parts> Stability::parts() {
   int constraints = 0;
   for (int k = 0; k < system_.multipliers(); ++k) {
     const int place = pattern.find(first + k, first + k);
-    const bool out = place >= 0 && values[static_cast<std::size_t>(place)] > 0;  // out of the equations
+    // A positive entry on the diagonal marks a constraint that is out of the equations.
+    const bool out = place >= 0 && values[static_cast<std::size_t>(place)] > 0;
     if (!out) number[static_cast<std::size_t>(k)] = constraints++;
   }
   std::vector<Eigen::Triplet<double>> stiffness, rows, columns;
   int read = -1;  // a first-order unknown on which forces depend
   pattern.for_each([&](int place, int row, int column) {
     const double value = values[static_cast<std::size_t>(place)];
-    if (value == 0 || (row >= dofs && row < first)) return;  // effects of first-order unknowns are no stiffness
+    if (value == 0 || (row >= dofs && row < first)) return;  // effects on first-order unknowns are not a stiffness
     if (column >= dofs && column < first) {
       read = column;
     } else if (row < dofs && column < dofs) {

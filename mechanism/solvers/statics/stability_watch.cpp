@@ -128,8 +128,8 @@ bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& s
   return false;
 }
 
-/// A branch that begins along two motions at once may be one of a circle of branches, along which there is no stiffness
-/// (a round rod that buckles to any side): such a motion is held like an indifferent one.
+/// A branch that begins along two motions at once may belong to a circle of branches, along which there is no stiffness
+/// (a round rod may buckle to any side). Such a motion is held like an indifferent one.
 void StabilityWatch::hold_neutral(double factor, const State& state) {
   equilibrium_.look_for_loose(factor, state);
   if (equilibrium_.held()) stability_.hold(*equilibrium_.held());

@@ -84,9 +84,9 @@ std::string loose_unknown(const System& system, const Environment& environment, 
   const bool singular = !linear.try_factor(state, environment, weights, nullptr);
   if (!singular && !linear.nearly_singular()) return {};
   const int without_pivot = singular ? linear.singular_unknown() : -1;
-  // The unknown without a pivot may be held: elimination in another order finds none at another unknown. The motion is
-  // found by inverse iteration with K + e D, which lengthens indifferent motions by 1/e and others by about D/K; the
-  // constraints are satisfied.
+  // The unknown without a pivot may be one that is held, because elimination in another order finds it elsewhere. The
+  // motion is therefore found by inverse iteration with K + e D, which lengthens indifferent motions by 1/e and others
+  // by about D/K; the constraints are satisfied.
   const VectorX D = mean_stiffness(system, linear, state), held = indifference * D;
   linear.choose_pivots_anew();
   if (!linear.try_factor(state, environment, weights, nullptr, &held))

@@ -65,7 +65,7 @@ class LoadStepping {
   bool line_search_;
   State& state_;
   double begin_;
-  bool loaded_;  ///< all of the load acts already
+  bool loaded_;  ///< whether all of the load acts already
   Increments increments_;
   HeldCoordinates held_;
   Equilibrium equilibrium_;
@@ -94,7 +94,7 @@ int LoadStepping::advance() {
     return -1;
   }
   if (falls) log_.fell = why_;
-  if (!loaded_ && !falls && !held_.any()) {  // the path of held coordinates is another one
+  if (!loaded_ && !falls && !held_.any()) {  // held coordinates have another path
     followed = judge(before, factor);
     if (followed) iterations = static_cast<int>(equilibrium_.solves() - solves);
   }

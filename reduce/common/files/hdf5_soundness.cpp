@@ -23,8 +23,8 @@ namespace bielle {
 
 namespace {
 
-/// The check reads metadata only, a few kB per dataset, in a second or two for the largest files. Texts are
-/// read completely.
+/// Returns the limits of the check, which reads metadata only, a few kB per dataset, in a second or two for the largest
+/// files. Texts are read completely.
 ChildLimits limits_of_a_walk(std::uint64_t size) {
   return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
 }
@@ -52,7 +52,8 @@ std::string name_of(hid_t object) {
 
 std::string unreadable_text(hid_t object) { return fmt::format("a text at {} cannot be read", name_of(object)); }
 
-/// The lengths of texts are stored elsewhere in the file. If they are damaged, HDF5 clears gigabytes before it fails.
+/// Reads texts. Their lengths are stored elsewhere in the file. If they are damaged, HDF5 clears gigabytes before it
+/// fails.
 /// @returns whether they could be read
 bool read_texts(hid_t type, hid_t space, std::size_t count, const auto& read) {
   if (H5Tis_variable_str(type) <= 0) {
@@ -146,9 +147,9 @@ herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) 
   return walk.damaged.empty() ? 0 : -1;
 }
 
-/// Fills memory, new and freed, with values that are not harmless. HDF5 may read behind the end of a damaged object, up
-/// to 2 MB for a text. A crash then depends on what memory holds there, and must not come later, in the program: in
-/// this process no memory looks harmless, neither new nor freed.
+/// Fills memory with values that cause a crash if they are used. HDF5 may read beyond the end of a damaged object, up
+/// to 2 MB for a text, and whether it crashes depends on the memory found there. The crash must occur in this process,
+/// and not later in the program; therefore both new and freed memory are filled.
 void fill_free_memory() {
   constexpr int never_an_address = 0x5a, behind = 8 << 20;
   mallopt(M_PERTURB, never_an_address);
@@ -170,7 +171,7 @@ void walk(const std::string& path) {
 /// Findings about a file that was checked.
 struct Finding {
   std::string fault;        ///< empty if there is none
-  bool as_written = false;  ///< it ends with the sum of its bytes
+  bool as_written = false;  ///< whether the file ends with the sum of its bytes
 };
 
 Finding check(const std::string& path, std::int64_t size) {
@@ -188,7 +189,7 @@ Finding check(const std::string& path, std::int64_t size) {
   return {};
 }
 
-/// A file is checked once until it is written again.
+/// Returns the findings about a file. It is checked only once until it is written again.
 Finding finding_about(const std::string& path) {
   static std::mutex guard;
   static std::map<Identity, Finding> findings;

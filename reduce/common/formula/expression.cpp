@@ -76,7 +76,7 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
         Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown, place});
   } catch (const InputError& error) {
     throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
-  } catch (const ComputationError& error) {  // constants ask a table for a value outside its range
+  } catch (const ComputationError& error) {  // constant arguments are outside the range of a table
     throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
   }
 }

@@ -178,7 +178,7 @@ struct FormulaTree::Evaluation {
     }
   }
 
-  /// Sign of x - border immediately to the right of the point of evaluation.
+  /// Returns the sign of x - border immediately to the right of the point of evaluation.
   double side(const Number& x, const Number& border) const {
     if constexpr (has_slopes) {
       at_kink |= x.value == border.value && (varies(x) || varies(border));

@@ -12,8 +12,8 @@ namespace bielle {
 
 namespace {
 
-/// A tridiagonal system with a dominant diagonal; the right-hand sides are the columns of `right`, which become the
-/// solutions.
+/// Solves a tridiagonal system with a dominant diagonal; the right-hand sides are the columns of `right`, which become
+/// the solutions.
 void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal, const Eigen::VectorXd& upper,
                        Eigen::Ref<Eigen::MatrixXd> right) {
   const Eigen::Index m = diagonal.size();
@@ -26,8 +26,8 @@ void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal, c
   for (Eigen::Index i = m - 2; i >= 0; --i) right.row(i) = (right.row(i) - upper(i) * right.row(i + 1)) / diagonal(i);
 }
 
-/// Second derivatives of the periodic cubic spline: the equations below hold at all points, and the first and last
-/// points coincide. The corners of the matrix are removed by an update of rank one (Sherman-Morrison).
+/// Returns the second derivatives of the periodic cubic spline: the equations below hold at all points, and the first
+/// and last points coincide. The corners of the matrix are removed by an update of rank one (Sherman-Morrison).
 Eigen::VectorXd periodic_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   const Eigen::Index n = x.size(), m = n - 1;  // unknowns M_0 .. M_{n-2}
   Eigen::VectorXd h(m), s(m), lower(m), diagonal(m), upper(m);
@@ -58,7 +58,7 @@ Eigen::VectorXd periodic_curvature(const Eigen::VectorXd& x, const Eigen::Vector
   return M;
 }
 
-/// Second derivatives M of the not-a-knot cubic spline at its points:
+/// Returns the second derivatives M of the not-a-knot cubic spline at its points:
 ///   h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (s_i - s_{i-1}),  i = 1 .. n-2,  s_i = (y_{i+1} - y_i) /
 ///   h_i
 /// The condition of a continuous third derivative at points 1 and n-2 eliminates M_0 and M_{n-1}.
@@ -90,8 +90,8 @@ Eigen::VectorXd spline_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd
   return M;
 }
 
-/// Integral of a cubic over a length h, from its values and second derivatives at both ends: the trapezoidal rule and
-/// its first correction.
+/// Returns the integral of a cubic over a length h, from its values and second derivatives at both ends: the
+/// trapezoidal rule and its first correction.
 double area_of_cubic(double h, double y_0, double y_1, double M_0, double M_1) {
   return h / 2 * (y_0 + y_1) - h * h * h / 24 * (M_0 + M_1);
 }

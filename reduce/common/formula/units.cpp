@@ -23,7 +23,7 @@ struct Units {
 
 const Units unknown{}, free_of_units{Units::Kind::free, {}}, pure_number{Units::Kind::known, {}};
 
-/// a b^exponent
+/// Returns a b^exponent.
 Units product(const Units& a, const Units& b, int exponent) {
   if (a == unknown || b == unknown) return unknown;
   Units result{a.kind == b.kind ? a.kind : Units::Kind::known, a.exponents};
@@ -32,7 +32,7 @@ Units product(const Units& a, const Units& b, int exponent) {
   return result;
 }
 
-/// Units of a sum.
+/// Returns the units of a sum.
 Units common(const Units& a, const Units& b) {
   if (a == free_of_units) return b;
   return b == free_of_units || a == b ? a : unknown;

@@ -12,7 +12,7 @@ namespace {
 
 struct ForeignWord {
   const char* foreign;
-  std::vector<const char*> here;  ///< all words that it may stand for; those that are expected at its place count
+  std::vector<const char*> here;  ///< all words that it may stand for; those expected at its place are suggested
   const char* clause = nullptr;   ///< in place of "here it is called .."
 };
 

@@ -33,7 +33,7 @@ class Writer {
     if (is_new) {
       found->second = free_name(has_form_of_its_own(table) ? table.of + " in any form" : table.of);
       const std::string name = found->second;
-      definitions_[name] = Json::object();  // keeps its place
+      definitions_[name] = Json::object();  // reserves its place
       Json written = of_table(table);
       definitions_[name] = std::move(written);
       return {{"$ref", "#/definitions/" + name}};
@@ -83,7 +83,8 @@ class Writer {
     return schema;
   }
 
-  /// The first variant whose key is there applies, the table's own keys if there is none.
+  /// Returns the schema of a table with variants. The first variant whose key is present applies; without any, the
+  /// table's own keys apply.
   Json of_variants(const KeyTable& table) {
     KeyTable& plain = plain_tables_.emplace_back(table);
     plain.variants.clear();
@@ -94,7 +95,7 @@ class Writer {
       if (!variant->value.empty()) condition["properties"] = {{variant->key, {{"const", variant->value}}}};
       schema = Json{{"if", condition}, {"then", reference(variant->table())}, {"else", std::move(schema)}};
     }
-    // Editors offer the keys that select a variant, and their values, before one of them is there.
+    // Editors offer the keys that select a variant, and their values, before one of these keys is present.
     std::map<std::string, Json> choices;
     std::set<std::string> alternatives;
     for (const KeyTable::Variant& variant : table.variants) {

@@ -117,8 +117,8 @@ std::string in_words(std::string name) {
   return name;
 }
 
-/// Returns "; did you mean .." with the nearest name, or the names that contain what was asked; empty if there are
-/// none.
+/// Returns "; did you mean .." with the nearest name, or with the names that contain the requested one; empty if there
+/// are none.
 std::string similar_names(const std::string& asked, const std::vector<std::string>& names) {
   if (const std::string nearest = nearest_name(asked, names); !nearest.empty())
     return fmt::format("; did you mean '{}'?", nearest);

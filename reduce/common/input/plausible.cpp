@@ -14,8 +14,8 @@ void warn_outside(const YamlValue& place, double value, const PlausibleRange& ra
 
 namespace {
 
-/// Largest absolute value of a formula near its break points and between them. It scales the rounding error, also where
-/// the formula vanishes (a sine after a full turn).
+/// Returns the largest absolute value of a formula near its break points and between them. It scales the rounding
+/// error, also where the formula vanishes (a sine after a full turn).
 double largest_about(const Expression& formula, const std::vector<double>& break_points) {
   std::vector<double> times = break_points;
   for (std::size_t k = 1; k < break_points.size(); ++k)

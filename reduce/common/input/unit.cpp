@@ -29,7 +29,7 @@ struct FreeConverter {
 /// with units read them.
 class UnitSystem {
  public:
-  /// The instance is never freed: values may be read while the program ends.
+  /// Returns the instance. It is never freed, because values may be read while the program ends.
   static const UnitSystem& instance() {
     static const UnitSystem& system = *new UnitSystem;
     return system;

@@ -131,7 +131,7 @@ YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> 
   if (table_) return below.with_forms(key_of_table(key.scalar).forms);
   const KeyForm* form = form_of(forms(), KeyForm::Kind::entries);
   if (!form) return below;
-  // A map that may be entries or a table is the table that has all its keys.
+  // A map may be entries or a table. It is the table if this has all keys of the map.
   for (const KeyForm& other : forms()) {
     if (other.kind != KeyForm::Kind::table) continue;
     const KeyTable& table = other.table().of_map(*node_);

@@ -146,7 +146,7 @@ class Parser {
     return std::find(nulls.begin(), nulls.end(), scalar) != nulls.end();
   }
 
-  /// Tags of the core schema are those that values have anyway.
+  /// Checks a tag. Those of the core schema are accepted, because they state the types that values have anyway.
   void check_tag(int line, const yaml_char_t* tag) const {
     const std::string written = text_of(tag);
     constexpr std::string_view core = "tag:yaml.org,2002:";
@@ -207,7 +207,8 @@ class Parser {
 /// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
 constexpr std::size_t most_repeated = 100'000;
 
-/// Refuses what YAML permits and no input file means: repeated keys, merge keys (`<<`), and keys that are no words.
+/// Refuses constructs that YAML permits but that are errors in input files: repeated keys, merge keys (`<<`), and keys
+/// that are not words.
 /// @param budget  number of nodes that may still follow
 void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const std::string& path,
                             std::size_t& budget) {
@@ -236,7 +237,7 @@ void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const
 
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& name) {
   std::shared_ptr<const YamlNode> root = Parser(text, name).document();
-  std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
+  std::size_t budget = text.size() + most_repeated;  // without aliases there are no more nodes than letters
   check_keys_of_all_maps(*root, name, "", budget);
   return root;
 }

@@ -151,7 +151,7 @@ std::string in_child_process(const ChildLoss& lost, const ChildLimits& limits,
     case value:
       return text;
     case input:
-      throw InputError(subject, text, Subject::hidden);  // the text has it already
+      throw InputError(subject, text, Subject::hidden);  // the text contains the subject already
     case computation:
       throw ComputationError(subject, text, Subject::hidden);
     case memory:

@@ -16,7 +16,7 @@ namespace bielle {
 #if defined(__x86_64__)
 
 bool forbid_other_programs() {
-  constexpr unsigned other_tables = 0x40000000;  // the calls of x32
+  constexpr unsigned other_tables = 0x40000000;  // system calls of the x32 ABI
   constexpr auto load = [](std::size_t offset) {
     return sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<unsigned>(offset)};
   };

@@ -33,7 +33,7 @@ double left_below_limit() {
   return std::max(0.0, 1e-6 * (static_cast<double>(limit.rlim_cur) - static_cast<double>(address_space())));
 }
 
-/// Memory that was freed, and that malloc keeps for the next request (library_settings.hpp).
+/// Returns the memory that was freed, and that malloc keeps for the next request (library_settings.hpp).
 double kept_by_malloc() {
 #ifdef __GLIBC__
   return 1e-6 * static_cast<double>(mallinfo2().fordblks);

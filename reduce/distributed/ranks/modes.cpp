@@ -135,7 +135,7 @@ class Search {
     check(VecScatterEnd(gather_, whole_, y, INSERT_VALUES, SCATTER_REVERSE));
   }
 
-  /// The lowest eigenpairs in the complement of those found so far.
+  /// Adds the lowest eigenpairs in the complement of those found so far.
   void add_lowest(int count) {
     EPS eps = nullptr;
     check(EPSCreate(team_.comm(), &eps));

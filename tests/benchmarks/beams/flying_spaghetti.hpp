@@ -35,7 +35,7 @@ inline std::string model_of(int elements, double EI, bool plane) {
       elements, EI, EI, EI, T, plane ? "0" : "-0.5", T, T);
 }
 
-/// In the table of references.
+/// Returns the name in the table of references.
 inline std::string name_of(double EI, bool plane) { return plane ? fmt::format("plane_{}", EI) : "space"; }
 
 /// Integrates, with calls at t = `times`.

@@ -40,7 +40,7 @@ struct Bend : StaticModel {
 
 const std::string polar = "{EA: 1e7, GAy: 5e6, GAz: 5e6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}";
 
-/// As the table names them: GA and the polar GJ, 5/6 GA, and the section's own constants.
+/// Sections by their names in the table of references: GA and the polar GJ, 5/6 GA, and the section's own constants.
 const std::pair<std::string, std::string> sections[] = {
     {"polar", polar},
     {"reduced_shear", "{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}"},

@@ -15,7 +15,7 @@ using bielle::test::StaticModel;
 
 namespace {
 
-/// Position and slope of the tip, L = EI = 1.
+/// Returns the position and slope of the tip, L = EI = 1.
 Vector3 tip(double alpha, double EA, double GA, int elements, int steps) {
   StaticModel beam(
       fmt::format("nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: [1, 0, 0]}}}}\n"

@@ -21,7 +21,7 @@ constexpr const char* thin =
     "{EA: 71240*18, GAy: 71240*15/2.62, GAz: 71240*15/2.62, GJ: 71240*30*0.6^3/3/2.62, EIy: 71240*0.6*30^3/12, EIz: "
     "71240*30*0.6^3/12}";
 
-/// Name of a section in the table of references.
+/// Returns the name of a section in the table of references.
 std::string name_of(const char* section) { return section == thin ? "thin" : "saint_venant"; }
 
 std::string leg(const std::string& ends, int elements, const std::string& section) {

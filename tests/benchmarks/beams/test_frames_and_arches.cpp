@@ -23,7 +23,7 @@ double path_value(const std::string& name) {
   return table(name);
 }
 
-/// Three points of a path.
+/// Returns three points of a path.
 std::vector<PathPoint> path_of(const std::string& model) {
   std::vector<PathPoint> path;
   for (const char* load : {".load_1", ".load_2", ".load_3"})
@@ -55,7 +55,7 @@ void check_path(const Model& make, const std::vector<PathPoint>& path, const Vec
   }
 }
 
-/// The extreme load between two positions of the loaded point along a direction, by parabolas through three
+/// Returns the extreme load between two positions of the loaded point along a direction, by parabolas through three
 /// successively closer points.
 double extreme_load(StaticModel& model, int direction, double low, double high, double tolerance) {
   const auto P = [&](double u) { return model.control("load", direction, u, 8, tolerance); };

@@ -15,7 +15,7 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// Energy, momentum and angular momentum about the inertial origin.
+/// Returns energy, momentum and angular momentum about the inertial origin.
 Eigen::Matrix<double, 7, 1> invariants(const DenseModel& dense, const State& state) {
   const VectorX p = dense.tangent(state, DenseModel::Part::M) * dense.rates(state);
   const Energy energy = dense.energy(state);

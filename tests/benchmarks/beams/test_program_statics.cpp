@@ -69,7 +69,7 @@ namespace {
 /// The state stands under loads and motions that are a little different from those of the model.
 const LoadSteps changed(1, {1, 1});
 
-/// A curved cantilever whose loads and whose clamp's place are parameters.
+/// Returns a curved cantilever whose loads and whose clamp's place are parameters.
 ReadyModel loaded_arc(double force, double moment, bool follower, const Vector3& turn = Vector3::Zero(),
                       const Vector3& shift = Vector3::Zero()) {
   const auto motion = [&](const char* key, double value) { return fmt::format("{}: {:.17g}", key, value); };

@@ -17,7 +17,8 @@ using bielle::test::StaticModel;
 
 namespace {
 
-/// A quarter of a ring, R = m = EI = 1, GJ = 1/1.3, thickness 1e-3 of the radius, with the symmetries of even n.
+/// Returns a quarter of a ring, R = m = EI = 1, GJ = 1/1.3, thickness 1e-3 of the radius, with the symmetries of even
+/// n.
 VectorX frequencies(int elements, bool in_plane, const std::string& bending) {
   StaticModel ring(fmt::format(
       "nodes: {{a: {{position: [1, 0, 0]}}, b: {{position: [0, 1, 0]}}}}\n"

@@ -84,7 +84,7 @@ struct RotatingBeam : StaticModel {
         dense.tangent(state, DenseModel::Part::C) + dense.tangent(state, DenseModel::Part::M) * per_node(w, W);
     return C(free, free);
   }
-  /// Frequencies of the vibrations in the given directions, ascending.
+  /// Returns the frequencies of the vibrations in the given directions, ascending.
   std::vector<double> frequencies(const std::vector<int>& directions) {
     keep_directions(directions);
     const auto n = static_cast<Eigen::Index>(free.size());

@@ -21,7 +21,7 @@ StaticsReport run(const std::string& text, int steps = 1) {
   return compute_statics(session, options);
 }
 
-/// Rods of mass 2 below each other, or above each other where l is negative.
+/// Returns rods of mass 2 below each other, or above each other where l is negative.
 std::string rods(int count, double l, const std::string& joint) {
   std::string nodes, elements, joints;
   for (int k = 0; k < count; ++k) {

@@ -57,7 +57,7 @@ Eigen::Vector3d pressed(double v, Eigen::Vector3d unknowns) {
   return unknowns;
 }
 
-/// Load on the apex of the whole toggle at each height, by half the toggle.
+/// Returns the load on the apex of the whole toggle at each height, by half the toggle.
 std::vector<double> reference(const std::vector<double>& heights) {
   std::vector<double> loads;
   Eigen::Vector3d unknowns = Eigen::Vector3d::Zero();

@@ -36,7 +36,7 @@ StaticsReport twisted(int elements, double moment, double tension, double GJ) {
   return compute_statics(session, options);
 }
 
-/// The smallest factor at which moment and tension make it unstable.
+/// Returns the smallest factor at which moment and tension make it unstable.
 double critical_factor(double moment, double tension) {
   const auto excess = [&](double factor) {
     const double m = factor * moment / 2, square = m * m - factor * tension;

@@ -20,7 +20,7 @@ struct Body {
   mechanism::Vector3 inertia{0.004, 0.004, 0.004};
 };
 
-/// A model of bodies and joints. @param joints  text of the section's entries
+/// Returns a model of bodies and joints. @param joints  text of the section's entries
 inline std::string contact_model(const std::vector<Body>& bodies, const std::string& joints,
                                  const std::string& gravity = "[0, 0, 0]") {
   std::string nodes = "nodes:\n", elements = "elements:\n";
@@ -56,7 +56,7 @@ inline mechanism::MarchLog run_contact(
   return motion.log();
 }
 
-/// Half an impact of F = k p^n without damping lasts about this long; the whole of it twice as long [s].
+/// Returns about half the duration of an impact of F = k p^n without damping [s].
 inline double impact_time(double mass, double stiffness, double exponent, double speed) {
   const double depth = std::pow((exponent + 1) * mass * speed * speed / (2 * stiffness), 1 / (exponent + 1));
   return 1.5 * depth / speed;

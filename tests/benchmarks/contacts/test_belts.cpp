@@ -12,7 +12,7 @@ namespace test_belts {
 
 constexpr double radius = 0.1;  // a ball of 1 kg, J = 0.4 m r^2
 
-/// A ball on the ground, pressed in by its weight. @param node  further keys @param plane,contact  keys
+/// Returns a ball on the ground, pressed in by its weight. @param node  further keys @param plane,contact  keys
 std::string ball_on_ground(const std::string& node, const std::string& plane, const std::string& contact) {
   const double depth = std::pow(g / 1e9, 1 / 1.5);
   return contact_model(

@@ -50,7 +50,7 @@ std::string write_groove(const char* name, unsigned seed) {
   return path;
 }
 
-/// A ball in the groove, which rocks across it, slides along it, and spins.
+/// Returns the path of a ball in the groove, which rocks across it, slides along it, and spins.
 std::vector<Vector3> path_in_groove(const char* name, unsigned seed) {
   const std::string stl = write_groove(name, seed);
   const std::string text = contact_model(
@@ -66,7 +66,7 @@ std::vector<Vector3> path_in_groove(const char* name, unsigned seed) {
   return path;
 }
 
-/// A ball on a plane. @returns its last position and rotation vector
+/// Returns the last position and rotation vector of a ball on a plane.
 std::pair<Vector3, Vector3> spun(bool plane_first, const std::string& held, double h) {
   const std::string plane = "{node: ground, plane: [0, 0, 1]}", ball = "{node: ball, sphere: 0.1}";
   const std::string text = contact_model(

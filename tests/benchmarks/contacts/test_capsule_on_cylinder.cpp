@@ -44,7 +44,7 @@ PlacedShape<double> placed(const ContactShape& shape, const Vector3& x, const Ma
   return result;
 }
 
-/// Distance of a point from the rounded cylinder about z.
+/// Returns the distance of a point from the rounded cylinder about z.
 double distance(const Vector3& p) {
   const double out = std::max(0.0, std::hypot(p.x(), p.y()) - (R - rounding)),
                beyond = std::max(0.0, std::abs(p.z()) - (half - rounding));

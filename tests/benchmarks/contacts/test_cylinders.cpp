@@ -18,7 +18,7 @@ namespace {
 
 constexpr double k = 1e6;
 
-/// Depth at which n places bear a weight.
+/// Returns the depth at which n places bear a weight.
 double depth(double weight, int n) { return std::pow(weight / (n * k), 1 / 1.5); }
 
 }  // namespace

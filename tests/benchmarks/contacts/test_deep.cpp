@@ -118,7 +118,8 @@ TEST_CASE("a ball within a closed surface is found, however far from its faces")
 }
 
 TEST_CASE("what has gone through a plane with its middle ends the run, whatever its shape") {
-  // Pushed down at 0.1 m/s from 0.2055 m above the plane: the first step beyond.
+  // The shape is pushed down at 0.1 m/s from 0.2055 m above the plane. The run ends with the first step in which its
+  // middle is beyond the plane.
   const TemporaryFolder folder;
   write_cube(folder / "cube.stl");
   for (const std::string& shape :

@@ -56,7 +56,7 @@ Two rate_of(const Two& z, bool on_ball) {
   return {z[1], acceleration};
 }
 
-/// Largest errors of the rate of a run, over its largest.
+/// Returns the largest errors of the rate of a run, over its largest.
 double error_of(bool on_ball, double h) {
   const std::string hinge = fmt::format(
       "  hinge: {{type: hinge, nodes: [ground, leaf], position: [0, 0, 0], axis: [0, 0, 1], friction: {{coefficient: "

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double stiffness = 1e6;
 
-/// Restitution of a ball of 1 kg that flies against a plane at a speed. @param expected  slow ones part late
+/// Returns the restitution of a ball of 1 kg that flies against a plane at a speed. @param expected  expected
+/// restitution, which determines the time of separation
 double restitution_of(const std::string& law, double speed, double expected, double tolerance = 0) {
   const double T = impact_time(1, stiffness, 1.5, speed), gap = 0.5 * speed * T;
   const std::string text =
@@ -33,8 +34,9 @@ double restitution_of(const std::string& law, double speed, double expected, dou
   return after / speed;
 }
 
-/// Restitution of K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440: the root e of c (1 + e) = ln((1 + c)/(1
-/// - e c)), by bisection; at e = 0 the left side is the larger one. @param c  damping times speed
+/// Returns the restitution of K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440: the root e of
+/// c (1 + e) = ln((1 + c)/(1 - e c)), by bisection; at e = 0 the left side is the larger one.
+/// @param c  damping times speed
 double hunt_and_crossley(double c) {
   double low = 0, high = std::min(1.0, 1 / c);
   for (int k = 0; k < 60; ++k) {

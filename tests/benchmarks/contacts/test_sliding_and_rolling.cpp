@@ -20,7 +20,7 @@ std::string inclined_gravity(double angle) {
   return fmt::format("[{:.17g}, 0, {:.17g}]", g * std::sin(angle), -g * std::cos(angle));
 }
 
-/// Acceleration along x of a ball that starts at rest in contact, over 0.1 s at the end.
+/// Returns the acceleration along x of a ball that starts at rest in contact, over 0.1 s at the end.
 double acceleration_of_ball(double angle, double friction) {
   const double depth = std::pow(g * std::cos(angle) / 1e9, 1 / 1.5);
   const std::string text = contact_model(

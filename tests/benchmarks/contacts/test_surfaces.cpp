@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Positions and rotations of node `b` at the end of a run of it above the ground's shape.
+/// Returns positions and rotations of node `b` at the end of a run of it above the ground's shape.
 NodeState end_on(const std::string& ground, const std::string& node, const std::string& shape, const std::string& law,
                  double end, double h = 1e-3) {
   NodeState state;

@@ -27,7 +27,7 @@ joints:
   knee: {type: hinge, nodes: [upper, lower], axis: [0, 0, 1], position: [1, 0, 0]}
 )yaml";
 
-/// The two masses, from the angles of the rods.
+/// Returns the positions of the two masses, from the angles of the rods.
 VectorX masses(double upper, double lower) {
   VectorX x(6);
   x << std::sin(upper), -std::cos(upper), 0, std::sin(upper) + std::sin(lower), -std::cos(upper) - std::cos(lower), 0;

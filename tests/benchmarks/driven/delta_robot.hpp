@@ -13,14 +13,14 @@ constexpr double delta_base = 0.15, delta_arm = 0.3, delta_platform = 0.05, delt
 constexpr double delta_rod = 0.7;                                                              // [m]
 constexpr double delta_cross_mass = 0.05, delta_rod_mass = 0.06, delta_platform_mass = 0.5;    // [kg]
 
-/// Height of the platform below the motors with the arms level [m].
+/// Returns the height of the platform below the motors with the arms level [m].
 inline double delta_depth() {
   return std::sqrt(delta_rod * delta_rod - std::pow(delta_base + delta_arm - delta_platform, 2));
 }
 
-/// The torque of each motor that holds the robot at rest with its arms level, counted as its drive counts it [N m]: the
-/// arm's weight at its middle, that of its end and of half the rods, and of the platform's third with the other halves,
-/// which the rods carry to the arm's end along their own direction.
+/// Returns the torque of each motor that holds the robot at rest with its arms level, counted as its drive counts it [N
+/// m]: the arm's weight at its middle, that of its end and of half the rods, and of the platform's third with the other
+/// halves, which the rods carry to the arm's end along their own direction.
 inline double delta_torque_at_rest() {
   constexpr double g = 9.81;
   const double arm_mass = 2700 * 0.024 * 0.03 * delta_arm;

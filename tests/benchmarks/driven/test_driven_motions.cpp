@@ -21,7 +21,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// A horizontal arm of 1 kg, 0.5 m from its hinge, that the hinge's angle lowers.
+/// Returns a horizontal arm of 1 kg, 0.5 m from its hinge, that the hinge's angle lowers.
 std::string arm(const std::string& angle) {
   return fmt::format(
       "gravity: [0, 0, -9.81]\nnodes: {{arm: {{position: [0.5, 0, 0]}}}}\n"

@@ -14,7 +14,7 @@ namespace bielle::four_bar {
 
 using mechanism::Vector3;
 
-/// A thin bar from one point to another, about z.
+/// Returns a thin bar from one point to another, about z.
 inline std::string bar_node(const std::string& name, const Vector3& from, const Vector3& to,
                             const std::string& rates = "") {
   const Vector3 centre = 0.5 * (from + to), along = to - from;

@@ -22,7 +22,7 @@ constexpr double mu = 0.4, radius = 0.1, sigma_0 = 2e4, length = 0.5, lean = 0.0
 
 double weight_below(int joint) { return 9.81 * (links - joint); }
 
-/// Lean of a link from the vertical.
+/// Returns the lean of a link from the vertical.
 double angle(int link) { return link % 2 == 0 ? lean : -lean; }
 
 std::string chain() {
@@ -43,7 +43,7 @@ std::string chain() {
   return "gravity: [0, 0, -9.81]\n" + nodes + elements + joints;
 }
 
-/// The share of the friction capacity of a hinge that the weight below it requires.
+/// Returns the share of the friction capacity of a hinge that the weight below it requires.
 double share(int joint) {
   double moment = 0, arm = 0;
   for (int k = joint; k < links; ++k) {

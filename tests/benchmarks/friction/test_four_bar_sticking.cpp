@@ -63,7 +63,8 @@ Pose pose_of(const Crank& z) {
   return pose;
 }
 
-/// The crank's angular acceleration. Friction by fixed-point iteration, which contracts by some mu radius/length.
+/// Returns the crank's angular acceleration. Friction by fixed-point iteration, which contracts by some mu
+/// radius/length.
 double acceleration(const Crank& z, const Signs& s) {
   const Pose pose = pose_of(z);
   const auto& [bar, rate] = pose;

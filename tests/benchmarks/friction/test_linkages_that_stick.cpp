@@ -18,7 +18,7 @@ using bielle::test::Random;
 
 namespace {
 
-/// A four-bar of any lengths that close, in the plane x-y.
+/// Returns a four-bar of any lengths that close, in the plane x-y.
 std::string linkage(Random& random) {
   using namespace bielle::four_bar;
   std::array<double, 4> l{};
@@ -55,7 +55,7 @@ std::string linkage(Random& random) {
          bar_body("rocker", l[2]) + "joints:\n" + joints;
 }
 
-/// A chain of links of 1 m, horizontal from the ground.
+/// Returns a chain of links of 1 m, horizontal from the ground.
 std::string chain(int links) {
   std::string nodes = "nodes:\n", elements = "elements:\n", joints = "joints:\n";
   for (int k = 0; k < links; ++k) {
@@ -69,7 +69,7 @@ std::string chain(int links) {
   return "gravity: [0, 0, -9.81]\n" + nodes + elements + joints;
 }
 
-/// The gap in the energy over the largest energy, and the number of events.
+/// Returns the gap in the energy over the largest energy, and the number of events.
 std::pair<double, long> run(const std::string& text, double h, double end) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   Session session(file.model);

@@ -18,7 +18,7 @@ using Catch::WithinRel;
 namespace test_path {
 namespace {
 
-/// A bead of 2 kg on a wire. @param more  keys of its node and of the model
+/// Returns a bead of 2 kg on a wire. @param more  keys of its node and of the model
 std::string bead(const std::string& curve, bool closed, const std::string& node, const std::string& friction,
                  const std::string& more = "") {
   return fmt::format(

@@ -48,7 +48,7 @@ double acceleration(const State& z, double sign) {
   return a;
 }
 
-/// The angle at a time; turning points are located to rounding.
+/// Returns the angle at a time; turning points are located to rounding.
 double reference(double end) {
   State z(start, 0);
   double t = 0, sign = -1;  // it begins to fall

@@ -15,7 +15,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// Acceleration at the start of a block that slides at 2 m/s in two guides.
+/// Returns the acceleration at the start of a block that slides at 2 m/s in two guides.
 double deceleration(double mu_1, double mu_2) {
   const std::string text = fmt::format(R"yaml(
 gravity: [0, 0, -9.81]
@@ -33,8 +33,8 @@ joints:
   return -session.node("block").a.x();
 }
 
-/// A wheel on a leg that drops onto the ground at speed. @param brace  type of the joint whose constraints may be
-/// redundant
+/// Returns a wheel on a leg that drops onto the ground at speed. @param brace  type of the joint whose constraints may
+/// be redundant
 std::string leg(const std::string& brace) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

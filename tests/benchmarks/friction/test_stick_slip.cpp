@@ -38,7 +38,7 @@ drives: {belt: {joint: rail, displacement: "0.1*t"}}
 )yaml";
 }
 
-/// Position and velocity at a time, from x = 0 at time 0, when it moves with the belt.
+/// Returns the position and velocity at a time, from x = 0 at time 0, when it moves with the belt.
 Eigen::Vector2d reference(double t) {
   const double sticks_first = x_s / V, slips = 2 * (M_PI - std::atan((x_s - x_k) * omega / V)) / omega;
   const double sticks = 2 * (x_s - x_k) / V;

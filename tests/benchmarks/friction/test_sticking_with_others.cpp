@@ -22,7 +22,7 @@ namespace {
 
 constexpr double m = 2, g = 9.81, mu = 0.2;
 
-/// A block of 2 kg on a horizontal guide. @param more  keys of its joint @param rest  further sections
+/// Returns a block of 2 kg on a horizontal guide. @param more  keys of its joint @param rest  further sections
 std::string block(const std::string& more, const std::string& rest = "", const std::string& velocity = "[0, 0, 0]") {
   return fmt::format(
       "gravity: [0, 0, -9.81]\n"

@@ -34,7 +34,7 @@ inline mechanism::MarchLog run_hydraulics(const std::string& text, const Hydraul
   return motion.log();
 }
 
-/// A number of the results at the end of a run.
+/// Returns a number of the results at the end of a run.
 inline std::vector<double> at_end(const std::string& text, const HydraulicRun& run,
                                   const std::vector<std::string>& datasets) {
   std::vector<double> last;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double modulus = 1.4e9, gas = 1e-3, precharge = 5e6, volume = 1e-4;
 
-/// A volume of 0.1 l with an accumulator of 1 l of gas at 5 MPa.
+/// Returns a volume of 0.1 l with an accumulator of 1 l of gas at 5 MPa.
 std::string store(double pressure, const std::string& flow) {
   return fmt::format(R"yaml(
 hydraulics:
@@ -28,8 +28,8 @@ measures: {{fluid: store.fluid_volume}}
 
 double pressure_of(const Session& session) { return session.read("hydraulics/main/pressure")[0]; }
 
-/// Volume of fluid that is pushed in from the precharge to a pressure: the integral of V dp/B, and the volume that the
-/// accumulator takes.
+/// Returns the volume of fluid that is pushed in from the precharge to a pressure: the integral of V dp/B, and the
+/// volume that the accumulator takes.
 double fluid_to(double p) {
   if (p <= precharge) return volume * (p - precharge) / modulus;
   const double taken = gas * (1 - precharge / p);

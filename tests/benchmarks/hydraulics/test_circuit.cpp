@@ -13,8 +13,8 @@ using namespace bielle::test;
 
 namespace {
 
-/// A mass of 500 kg above the ground, lifted and lowered by a cylinder in a closed circuit: a machine on a flywheel
-/// pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
+/// Returns a mass of 500 kg above the ground, lifted and lowered by a cylinder in a closed circuit: a machine on a
+/// flywheel pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
 std::string closed_circuit(const std::string& conserves) {
   return R"yaml(
 gravity: [0, 0, -9.81]
@@ -84,7 +84,7 @@ TEST_CASE("energy balances in a closed circuit: what is missing falls with the s
 TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
   Fluid fluid;
   fluid.air_fraction = 0.005;
-  // ../README of the formula: effective moduli by direct evaluation of -v/v' in quadruple precision.
+  // Reference: effective moduli by direct evaluation of -v/v' in quadruple precision.
   CHECK(fluid.effective_modulus(1e3) == Approx(6.289e3).epsilon(1e-3));
   CHECK(fluid.effective_modulus(1e6) == Approx(7.4899e8).epsilon(1e-4));
   CHECK(fluid.effective_modulus(20e6) == Approx(1.3950e9).epsilon(1e-4));

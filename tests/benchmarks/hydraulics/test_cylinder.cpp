@@ -25,7 +25,7 @@ std::vector<double> numbers(const std::string& row, const std::vector<std::strin
   return values;
 }
 
-/// The mass along z above the ground. @param actuator  further keys
+/// Returns the mass along z above the ground. @param actuator  further keys
 std::string lift(const std::string& actuator, const std::string& node = "", double gravity = 0) {
   return fmt::format(
       "gravity: [0, 0, {}]\n"

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double p_a = 101325, g = 9.81;
 
-/// A mass along z, on a cylinder. @param cylinder  keys of the cylinder; @param position  position of the mass [m]
+/// Returns a mass along z, on a cylinder. @param cylinder  keys of the cylinder; @param position  position of the mass
+/// [m]
 std::string lifted(double mass, double position, const std::string& cylinder, const std::string& more = "",
                    double gravity = g) {
   return fmt::format(
@@ -32,7 +33,7 @@ double number(const Session& session, const std::string& dataset, std::size_t k 
   return session.read(dataset)[k];
 }
 
-/// Finite eigenvalues of K + s C + s^2 M over some unknowns.
+/// Returns the finite eigenvalues of K + s C + s^2 M over some unknowns.
 std::vector<std::complex<double>> eigenvalues(const MatrixX& K, const MatrixX& C, const MatrixX& M) {
   const Eigen::Index n = K.rows();
   MatrixX A = MatrixX::Zero(2 * n, 2 * n), E = A;

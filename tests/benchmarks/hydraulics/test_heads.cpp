@@ -14,8 +14,8 @@ namespace {
 
 constexpr double B = 1.4e9, rho = 850, p_a = 101325;
 
-/// Work per volume that enters a place at a difference d to the ambient pressure. Fluid that has the volume W at p_a
-/// has W exp(-d/B) there, and its work is the integral of that, W B (1 - exp(-d/B)).
+/// Returns the work per volume that enters a place at a difference d to the ambient pressure. Fluid that has the volume
+/// W at p_a has W exp(-d/B) there, and its work is the integral of that, W B (1 - exp(-d/B)).
 double head(const std::string& conserves, double d) {
   return conserves == "mass" ? -B * std::expm1(-d / B) : B * std::expm1(d / B);
 }

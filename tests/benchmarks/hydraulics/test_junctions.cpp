@@ -19,13 +19,15 @@ namespace {
 
 constexpr double rho = 850, viscosity = 0.04, discharge = 0.7, tank = 101325, pumped = 1e-4;
 
-/// Flow of an orifice of the area A at the difference D, laminar below a Reynolds number of 150 of a round hole.
+/// Returns the flow of an orifice of the area A at the difference D, laminar below a Reynolds number of 150 of a round
+/// hole.
 double orifice(double A, double D) {
   const double D_h = std::sqrt(4 * A / M_PI), D_t = 0.5 * rho * std::pow(150 * viscosity / rho / (discharge * D_h), 2);
   return discharge * A * std::sqrt(2 / rho) * D / std::pow(D * D + D_t * D_t, 0.25);
 }
 
-/// The difference at which a relief valve of 10 mm that opens from 1 to 1.1 MPa passes a flow: by bisection of its law.
+/// Returns the difference at which a relief valve of 10 mm that opens from 1 to 1.1 MPa passes a flow: by bisection of
+/// its law.
 double relief(double flow) {
   double low = 1e6, high = 1e7;
   for (int k = 0; k < 100; ++k) {
@@ -36,7 +38,7 @@ double relief(double flow) {
   return low;
 }
 
-/// The difference at which an orifice passes a flow.
+/// Returns the difference at which an orifice passes a flow.
 double orifice_drop(double A, double flow) {
   double low = 0, high = 1e9;
   for (int k = 0; k < 200; ++k) (orifice(A, 0.5 * (low + high)) < flow ? low : high) = 0.5 * (low + high);
@@ -75,7 +77,7 @@ TEST_CASE("a pump into a junction that a relief valve drains: the pressure of th
     });
     CHECK(lowest == Approx(p).epsilon(1e-9));
     CHECK(highest == Approx(p).epsilon(1e-9));
-    // A volume in place of the junction comes to the same.
+    // A volume in place of the junction gives the same result.
     CHECK(at_end(circuit("volumes: {j: {volume: 1e-5}}", valve), {.h = 1e-3, .end = 0.1, .tolerance = tolerance},
                  {"hydraulics/j/pressure"})[0] == Approx(p).epsilon(1e-6));
   }
@@ -114,7 +116,7 @@ TEST_CASE("junctions that float together until a valve opens rise together") {
 }
 
 TEST_CASE("valves that check, that follow with a time constant, and pumps that draw") {
-  // A check valve opens over 0.5 bar from none.
+  // A check valve opens over a range of 0.5 bar, which begins at 0.
   const auto checked = [&](double flow) {
     double low = 0, high = 1e6;
     for (int k = 0; k < 100; ++k) {
@@ -196,7 +198,7 @@ TEST_CASE("pressures that seem to be in bar give a warning") {
   CHECK(has("accumulators.s.precharge", "90 bar"));
   CHECK(has("lines.r.relief.pressure", "210 bar"));
   CHECK(has("lines.p.pipe.pressure", "200 bar"));
-  // Relative to the atmosphere none is a pressure of its own; formulas of t are not judged.
+  // If pressures are relative to the atmosphere, a pressure of 0 is plausible; formulas of t are not checked.
   CHECK(warnings(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 0}, b: {pressure: 2e7}, c: {pressure: "
                             "\"200*t\"}, d: {pressure: -5e4}}\n"))
             .empty());

@@ -20,7 +20,7 @@ std::string hydraulics(const std::string& text, const std::string& rest = "") {
          text;
 }
 
-/// Flow of one line between two given pressures.
+/// Returns the flow of one line between two given pressures.
 double steady_flow(const std::string& line, double p_a, double p_b, double t = 1) {
   return at_end(
       hydraulics(fmt::format("  supplies: {{a: {{pressure: {}}}, b: {{pressure: {}}}, x: {{pressure: 2e6}}}}\n"

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double locked_at = 0.4137, unlocked_at = 0.7;
 
-/// A valve between two supplies.
+/// Returns a valve between two supplies.
 std::string valve(const std::string& keys, const std::string& more = "",
                   const std::string& events =
                       "shut: {when: clock, crosses: 0.4137, do: [{lock: gate}]}, open: {when: "
@@ -130,7 +130,7 @@ TEST_CASE("the command of a locked valve may leave its range, that of an unlocke
 }
 
 TEST_CASE("a relief valve that sticks passes fluid at pressures at which it would be closed") {
-  // It opens from 2 to 4 bar of difference: at 3 bar by one half.
+  // The valve opens over a difference of 2 to 4 bar; at 3 bar it is half open.
   for (const char* constant : {"", ", time_constant: 0.02"}) {
     const std::string text = fmt::format(R"yaml(
 hydraulics:

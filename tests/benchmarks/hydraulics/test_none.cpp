@@ -1,4 +1,5 @@
-// Keys of 0 mean that there is none: a parameter that is reduced to it gives the circuit without it.
+// A value of 0 of some keys removes a part: a circuit whose parameter is reduced to 0 equals the circuit without the
+// part.
 #include <cmath>
 
 #include <catch2/catch.hpp>

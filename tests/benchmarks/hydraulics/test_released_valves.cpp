@@ -17,7 +17,7 @@ namespace {
 
 constexpr double fluid_modulus = 1.4e9, space = 1e-3, conductance = 1e-12, low = 1e5, high = 3e5;
 
-/// A volume between two gaps, of which `in` leads from the higher pressure.
+/// Returns a volume between two gaps, of which `in` leads from the higher pressure.
 std::string filled(const std::string& in, const std::string& events) {
   return fmt::format(R"yaml(
 hydraulics:

@@ -24,7 +24,7 @@ inline void move(const std::string& text, double h, double end, const Look& look
   while (motion.step()) look(session);
 }
 
-/// Does the same, and looks once at the end.
+/// Integrates in the same way, and calls `look` only once, at the end.
 inline void move_to(const std::string& text, double h, double end, const Look& look) {
   const mechanism::MechanismFile file = mechanism::read_mechanism_text(text, "model.yaml");
   mechanism::Session session(file.model);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double r = 0.1, distance = 0.5, EA = 2e4, T_0 = 300, mu = 0.3;
 
-/// Two equal pulleys, hinged about z.
+/// Returns two equal pulleys, hinged about z.
 std::string drive(const std::string& friction, const std::string& more, double inertia = 0.01, double damping = 1e-3) {
   return fmt::format(R"yaml(
 nodes: {{a: {{}}, b: {{position: [0.5, 0, 0]}}}}
@@ -37,7 +37,8 @@ struct Limit {
   double slack, tight, torque;
 };
 
-/// The tensions when the belt slips: T_2 = k T_1, with T = EA E/(L - E) and the constant sum of both elongations.
+/// Returns the tensions when the belt slips: T_2 = k T_1, with T = EA E/(L - E) and the constant sum of both
+/// elongations.
 Limit limit_of(double k) {
   const double E_0 = T_0 * distance / (EA + T_0);
   const auto tension = [&](double E) { return EA * E / (distance - E); };

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double J_1 = 0.3, J_2 = 0.5, w_0 = 40;
 
-/// Two flywheels on an axis. @param clutch  keys of the joint between them
+/// Returns two flywheels on an axis. @param clutch  keys of the joint between them
 std::string flywheels(const std::string& clutch, const std::string& more = "") {
   return fmt::format(R"yaml(
 nodes: {{a: {{}}, b: {{}}}}
@@ -36,7 +36,7 @@ joints:
                      J_1, J_2, w_0, -w_0, clutch, more);
 }
 
-/// A flywheel of 2 kg m^2 on the ground.
+/// Returns a flywheel of 2 kg m^2 on the ground.
 std::string wheel(const std::string& keys, double rate, const std::string& torque) {
   return fmt::format(R"yaml(
 nodes: {{w: {{}}}}
@@ -49,7 +49,7 @@ drives: {{load: {{joint: axle, torque: "{}"}}}}
 
 double read(const Session& session, const std::string& what) { return session.read("joints/" + what)[0]; }
 
-/// Root of a function that changes its sign between two places.
+/// Returns the root of a function that changes its sign between two places.
 template <class Function>
 double root(const Function& f, double low, double high) {
   const bool rises = f(high) > 0;
@@ -143,7 +143,7 @@ TEST_CASE("an open clutch lets its flywheels pass each other, also at the same r
       CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-11));
       CHECK(read(session, "axle/clutch_sticks") == 1);
     });
-  // At rest, without a load, and then closed.
+  // The wheel is at rest without a load, and then the clutch closes.
   const auto events =
       events_of(wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "0"), 0.01, 0.4, [](const Session& session) {
         CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-12));

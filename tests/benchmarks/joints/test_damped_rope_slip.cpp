@@ -15,7 +15,7 @@ namespace {
 
 constexpr double r = 0.1, J = 0.5, EA = 1e6, tau = 1e-3, F = 50;
 
-/// A band brake: the band is fixed at the anchor, passes half round the drum, and its other end is pulled by F.
+/// Returns a band brake: the band is fixed at the anchor, passes half round the drum, and its other end is pulled by F.
 /// @param rate  angular velocity of the drum: positive if it draws the band off the anchor's side [rad/s]
 /// @param mass  mass of the pulled end [kg]
 std::string band_brake(double rate, double mass, double mu, double damping) {
@@ -61,8 +61,8 @@ Run run(const std::string& text, double h, double duration, const std::string& r
 
 using Values = std::array<double, 5>;  // rotation and rate of the drum, x and velocity of the end, slip
 
-/// The equations of the releasing brake while it slips, T_1 = exp(-mu pi) T_2, with the small resistance of
-/// rope_friction.hpp.
+/// Returns the rates by the equations of the releasing brake while it slips, T_1 = exp(-mu pi) T_2, with the small
+/// resistance of rope_friction.hpp.
 Values rates(const Values& y, double mass, double mu) {
   const auto [phi, omega, x, v, s] = y;
   const double a = std::exp(-mu * M_PI), E_0 = F / (EA + F), E_1 = E_0 - r * phi + s, E_2 = E_0 + r * phi - s - x;

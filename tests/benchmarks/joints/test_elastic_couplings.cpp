@@ -30,7 +30,7 @@ constexpr double J_1 = 0.3, J_2 = 0.5, ratio = -0.4, k = 2e3, w_1 = 9;
 // The deformation e = c_2 - ratio c_1 has the reduced inertia J: its generalised force accelerates both shafts.
 const double J = 1 / (ratio * ratio / J_1 + 1 / J_2);
 
-/// Two shafts on the ground, the first of which turns. @param keys  of their gear
+/// Returns two shafts on the ground, the first of which turns. @param keys  of their gear
 std::string shafts(const std::string& keys, double rate = w_1, const std::string& more = "") {
   return fmt::format(R"yaml(
 nodes: {{a: {{}}, b: {{position: [0.5, 0, 0]}}}}

@@ -16,7 +16,8 @@ using bielle::test::move_to;
 
 namespace {
 
-/// Two wheels side by side on z axes, hinged to the ground; the second is 0.07 m away. Torques of 1 and -1.5 N m.
+/// Returns two wheels side by side on z axes, hinged to the ground; the second is 0.07 m away. Torques of 1 and -1.5 N
+/// m.
 std::string wheels(const std::string& coupling) {
   return R"yaml(
 nodes:

@@ -31,7 +31,8 @@ std::vector<double> support(const Session& session, const std::string& node) {
   return session.read("supports/" + node + "/reaction");
 }
 
-/// A body that tumbles about the ground's origin under a moment. @param hold  keys of its node @param joints  section
+/// Returns a body that tumbles about the ground's origin under a moment. @param hold  keys of its node @param joints
+/// section
 std::string tumbling(const std::string& hold, const std::string& rates, const std::string& joints = "") {
   return fmt::format(R"yaml(
 nodes: {{body: {{{}, angular_velocity: {}}}}}
@@ -191,7 +192,8 @@ loads: {{push: {{node: roller, force: [10, 0, 0]}}}}
   CHECK((Vector3(reaction[0], reaction[1], reaction[2]) - 10 * std::sin(slope) * across).norm() < 1e-8);
 }
 
-/// A pendulum of a rod without inertia about itself and a mass that does not turn. @param upper  the joint at the top
+/// Returns a pendulum of a rod without inertia about itself and a mass that does not turn. @param upper  the joint at
+/// the top
 std::string rod(const std::string& upper, double about_itself, const std::string& start = "[0, 1, 0.5]") {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

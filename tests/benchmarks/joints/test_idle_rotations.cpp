@@ -1,5 +1,5 @@
-// Rotations without inertia that nothing needs: models that hold them by other means, or that have inertia there, move
-// in the same way.
+// Rotations without inertia on which nothing acts: models that hold them by other means, or that have inertia there,
+// move in the same way.
 #include <algorithm>
 #include <string>
 
@@ -19,7 +19,8 @@ using Catch::Contains;
 namespace test_idle_rotations {
 namespace {
 
-/// A net of two masses on springs, cables and rods, which swings in all directions. @param hold  keys of both nodes
+/// Returns a net of two masses on springs, cables and rods, which swings in all directions. @param hold  keys of both
+/// nodes
 std::string net(const std::string& hold, const std::string& more = "") {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]
@@ -39,7 +40,7 @@ loads:
                      hold, more);
 }
 
-/// A four-bar in space: its coupler has spherical joints at both ends. @param inertia  about its line
+/// Returns a four-bar in space: its coupler has spherical joints at both ends. @param inertia  about its line
 std::string four_bar(double inertia) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

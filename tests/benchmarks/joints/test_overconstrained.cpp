@@ -25,8 +25,8 @@ struct Link {
   double angle, length, twist;  ///< about z, along x, about x
 };
 
-/// A loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles are zero in the
-/// drawn position.
+/// Returns a loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles are zero in
+/// the drawn position.
 std::string loop(const std::vector<Link>& links, const std::string& drive) {
   std::string nodes = "nodes:\n", elements = "elements:\n", joints = "joints:\n";
   Isometry3d frame = Isometry3d::Identity();

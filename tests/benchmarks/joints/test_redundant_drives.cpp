@@ -16,7 +16,7 @@ using Catch::Contains;
 
 namespace {
 
-/// 10 kg on equal vertical guides, whose entries may have more keys. @param drives  drives of the file
+/// Returns 10 kg on equal vertical guides, whose entries may have more keys. @param drives  drives of the file
 std::string lift(const std::vector<std::string>& guides, const std::string& drives) {
   std::string text =
       "gravity: [0, 0, -10]\n"

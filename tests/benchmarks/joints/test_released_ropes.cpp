@@ -12,7 +12,7 @@ using bielle::test::steps_of;
 namespace test_released_ropes {
 namespace {
 
-/// Masses of 2 and 1 kg that slip over a bollard of 0.1 m, mu = 0.1, on a rope without damping.
+/// Returns masses of 2 and 1 kg that slip over a bollard of 0.1 m, mu = 0.1, on a rope without damping.
 std::string over_bollard(const std::string& type, const std::string& events) {
   return R"yaml(
 gravity: [0, 0, -9.81]

@@ -37,7 +37,7 @@ joints:
                      velocity.x(), velocity.y(), velocity.z(), -std::sin(lean), std::cos(lean));
 }
 
-/// A disk on z = 0 whose contact is the origin: attitude R_x(lean), rates in its own axes.
+/// Returns a disk on z = 0 whose contact is the origin: attitude R_x(lean), rates in its own axes.
 std::string disk_at_origin(double lean, const Vector3d& body_rates) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(lean, Vector3d::UnitX()).toRotationMatrix();
   const Vector3d axis = R.col(2), up = (Vector3d::UnitZ() - axis.z() * axis).normalized();
@@ -151,7 +151,7 @@ loads: {lift: {node: hub, force: [0, 0, "20*t"]}}
 
 namespace {
 
-/// A wheel on z = 0 whose fork is drawn along x at 10 m/s, heading turned by `angle` from there.
+/// Returns a wheel on z = 0 whose fork is drawn along x at 10 m/s, heading turned by `angle` from there.
 std::string towed(double angle, const std::string& tyre, const std::string& more) {
   const double c = std::cos(angle), s = std::sin(angle), spin = 10 * c / a;
   return fmt::format(R"yaml(

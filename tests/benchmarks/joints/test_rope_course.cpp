@@ -20,7 +20,8 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Length of the shortest way from a to b round a disc, on the side of less than half a turn or, `far`, on the other.
+/// Returns the length of the shortest way from a to b round a disc, on the side of less than half a turn or, `far`, on
+/// the other.
 double taut_length(const Vector2d& a, const Vector2d& b, const Vector2d& centre, double radius, bool far = false) {
   const Vector2d to_a = a - centre, to_b = b - centre;
   const double angle = std::acos(to_a.dot(to_b) / (to_a.norm() * to_b.norm())),

@@ -30,7 +30,7 @@ joints:
                      left, right, left > right ? -2 : 2, left > right ? 2 : -2, more, events);
 }
 
-/// Two hinged pulleys with a belt of 1.5 % strain that slips on the first one.
+/// Returns two hinged pulleys with a belt of 1.5 % strain that slips on the first one.
 std::string slipping_belt(const std::string& drives) {
   return R"yaml(
 nodes: {a: {}, b: {position: [0.5, 0, 0]}}

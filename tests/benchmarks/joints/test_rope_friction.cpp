@@ -18,7 +18,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// Two masses on a rope over a drum of 0.1 m on a hinge about y; `second` is at x = +0.1, and z = -1 for both.
+/// Returns two masses on a rope over a drum of 0.1 m on a hinge about y; `second` is at x = +0.1, and z = -1 for both.
 /// @param held  keys of the drum's node
 std::string over_drum(double first, double second, const std::string& held, const std::string& keys) {
   return fmt::format(R"yaml(

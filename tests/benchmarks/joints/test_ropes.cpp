@@ -14,7 +14,7 @@ using bielle::test::move_to;
 
 namespace {
 
-/// Two pulleys of 0.1 m and 0.2 m, 0.5 m apart, hinged about z.
+/// Returns two pulleys of 0.1 m and 0.2 m, 0.5 m apart, hinged about z.
 std::string belt_drive(const std::string& radii, const std::string& more) {
   return fmt::format(R"yaml(
 nodes: {{a: {{}}, b: {{position: [0.5, 0, 0]}}}}

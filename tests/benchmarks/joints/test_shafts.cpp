@@ -21,7 +21,7 @@ namespace {
 
 constexpr double b = M_PI / 6, J_1 = 0.01, J_2 = 0.02;
 
-/// The first shaft along z, the second bent towards x by b.
+/// Returns the first shaft along z, the second bent towards x by b.
 std::string cardan(const std::string& more) {
   return fmt::format(R"yaml(
 nodes:

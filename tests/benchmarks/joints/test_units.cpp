@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A crank with a universal joint, a spatial loop with a rod, a screw, a gear, a rope: redundant constraints as well.
+/// Returns a crank with a universal joint, a spatial loop with a rod, a screw, a gear, a rope: redundant constraints as
+/// well.
 std::string machine(double L, double M) {
   const auto at = [&](double x, double y, double z) {
     return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", L * x, L * y, L * z);

@@ -1,5 +1,5 @@
-// Keys of 0 mean that there is none: friction, stops, gaps, filters, branches, grip, masses. A parameter that is
-// reduced to it gives the model without it, or a closed form.
+// A value of 0 of some keys removes a part: friction, stops, gaps, filters, branches, grip, masses. A model whose
+// parameter is reduced to 0 equals the model without the part, or a closed form.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// A measure `m` at the end of 0.2 s, or in equilibrium.
+/// Returns a measure `m` at the end of 0.2 s, or in equilibrium.
 double measured(const std::string& text, bool in_motion = true) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   Session session(file.model);

@@ -15,7 +15,7 @@ using bielle::test::move;
 
 namespace {
 
-/// An oscillator of 2 kg and 200 N/m on a base that moves along x.
+/// Returns an oscillator of 2 kg and 200 N/m on a base that moves along x.
 std::string oscillator(const std::string& motion) {
   return "nodes:\n  base: {fixed: [y, z, rx, ry, rz], motion: {x: " + motion + R"yaml(}}
   mass: {position: [0, 0, 0], fixed: [y, z, rx, ry, rz]}

@@ -47,7 +47,7 @@ void place(State& state, const Matrix3& R, const Vector3& x, const Vector6& e) {
   state.nodes[2].R = R * exp_so3(e.tail<3>());
 }
 
-/// Force and moment on node b, in the axes of the middle frame.
+/// Returns the force and moment on node b, in the axes of the middle frame.
 Vector6 on_second(const DenseModel& dense, const State& state, const Vector6& e) {
   const VectorX r = dense.residual(state);
   const Matrix3 M = state.nodes[1].R * exp_so3(0.5 * e.tail<3>());
@@ -158,7 +158,7 @@ joints:
 
 namespace {
 
-/// A bushing with one branch between ground and a node that moves along x as prescribed.
+/// Returns a bushing with one branch between ground and a node that moves along x as prescribed.
 std::string driven(const std::string& x) {
   return R"yaml(
 nodes:
@@ -281,7 +281,7 @@ TEST_CASE("a bearing's tilt resists like a torsion spring at large tilts") {
 
 namespace {
 
-/// Timoshenko's beam along x, of the constants below: K of two nodes.
+/// Returns K of two nodes of Timoshenko's beam along x with the constants below.
 Eigen::Matrix<double, 12, 12> beam_stiffness(double L) {
   const double EA = 4e4, GAy = 1e4, GAz = 2e4, GJ = 30, EIy = 50, EIz = 80;
   Eigen::Matrix<double, 12, 12> K = Eigen::Matrix<double, 12, 12>::Zero();

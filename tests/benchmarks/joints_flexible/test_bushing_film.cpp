@@ -35,7 +35,7 @@ std::string by_rows(const MatrixX& A) {
   return text + "]]";
 }
 
-/// A matrix with a positive definite symmetric part in its first n rows and columns.
+/// Returns a matrix with a positive definite symmetric part in its first n rows and columns.
 Matrix6 definite(Random& random, Eigen::Index n) {
   Matrix6 A = Matrix6::Zero();
   for (Eigen::Index i = 0; i < n; ++i)
@@ -43,7 +43,7 @@ Matrix6 definite(Random& random, Eigen::Index n) {
   return A;
 }
 
-/// A row of a table of n measures.
+/// Returns a row of a table of n measures.
 std::string row(double speed, const Matrix6& K, const Matrix6& D, Eigen::Index n) {
   std::string text = fmt::format("{:.17g}", speed);
   for (const Matrix6* A : {&K, &D})
@@ -56,7 +56,8 @@ std::string pair_joined_by(const std::string& keys) {
   return "nodes:\n  a: {}\n  b: {}\njoints:\n  it: {type: bushing, nodes: [a, b], " + keys + "}\n";
 }
 
-/// A shaft that is driven faster and faster, and a body in a seal whose cross-coupled stiffness grows with its speed.
+/// Returns a shaft that is driven faster and faster, and a body in a seal whose cross-coupled stiffness grows with its
+/// speed.
 std::string driven_seal(const std::string& file) {
   return fmt::format(R"yaml(
 nodes:

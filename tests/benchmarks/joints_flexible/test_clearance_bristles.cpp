@@ -20,8 +20,8 @@ namespace {
 
 constexpr double g = 9.81, m = 2, r = 0.02, mu = 0.3, sigma_0 = 2e4, gap = 1e-4;
 
-/// A journal that lies in its bush, or a ball in its socket, where oil damps it: along the bore it would swing for
-/// long.
+/// Returns a journal that lies in its bush, or a ball in its socket, where oil damps it: along the bore it would swing
+/// for long.
 /// @param node  further keys of its node @param rest  sections
 std::string lying(const std::string& type, const std::string& node, const std::string& rest = "") {
   const double depth = std::pow(m * g / 1e8, 1 / 1.5);

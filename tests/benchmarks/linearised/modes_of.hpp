@@ -34,7 +34,7 @@ struct ModesOf {
   }
 };
 
-/// Angular frequencies |s| [rad/s] of the modes that are not rigid, ascending.
+/// Returns the angular frequencies |s| [rad/s] of the modes that are not rigid, ascending.
 inline std::vector<double> rates_of(const mechanism::ModesReport& report) {
   std::vector<double> rates;
   for (const mechanism::Mode& mode : report.found.modes)

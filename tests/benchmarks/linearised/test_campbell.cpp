@@ -12,7 +12,7 @@ namespace {
 
 constexpr double Jp = 0.01, Jt = 0.02, mass = 5, k_tilt = 800, kx = 1.8e5, ky = 1e5, kz = 3e5;
 
-/// A rigid disc on an axle whose massless bearing rests on springs.
+/// Returns a rigid disc on an axle whose massless bearing rests on springs.
 std::string disc(const std::string& analysis, const std::string& speed = "speed") {
   return fmt::format(
       "parameters: {{speed: 10}}\n"

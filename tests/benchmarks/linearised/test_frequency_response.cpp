@@ -20,7 +20,7 @@ const std::string oscillator =
     "loads: {p: {node: m, force: [\"2*push\", 0, 0]}}\n"
     "measures: {place: m.position.x, speed: m.velocity.x, both: {formula: \"place + 0.1*push\", units: m}}\n";
 
-/// The oscillator with another force for its input.
+/// Returns the oscillator with another force for its input.
 std::string oscillator_pushed_by(const std::string& force) {
   const std::size_t at = oscillator.find("2*push");
   return oscillator.substr(0, at) + force + oscillator.substr(at + 6);

@@ -6,7 +6,7 @@ using namespace bielle::test;
 
 namespace {
 
-/// Rods of different lengths, each on a hinge of its own: `standing` of them stand, the others hang.
+/// Returns rods of different lengths, each on a hinge of its own: `standing` of them stand, the others hang.
 std::string rods(int count, int standing, double damping = 0) {
   std::string nodes, elements, joints;
   for (int k = 0; k < count; ++k) {

@@ -30,7 +30,7 @@ std::string flapping(int count, const std::string& blade, const std::string& spr
          "drives: {motor: {joint: shaft, rate: 7}}\n";
 }
 
-/// Two masses on bushings that resist rotations, on a free rotor.
+/// Returns two masses on bushings that resist rotations, on a free rotor.
 std::string on_bushings(const std::string& body, double turning) {
   std::string text =
       "nodes: {hub: {}, rotor: {}, p: {position: [0.5, 0, 0]}, q: {position: [-0.5, 0, 0]}}\n"

@@ -35,7 +35,7 @@ ModesReport behind_shaft(const ModesOf& model, double rate, int count) {
   return compute_modes(model.session, options);
 }
 
-/// A beam from the origin whose sections have the given EIy and EIz, unit mass and length.
+/// Returns a beam from the origin whose sections have the given EIy and EIz, unit mass and length.
 std::string cantilever(const Vector3& tip, const Vector3& orientation, double EIy, double EIz) {
   return fmt::format(
       "nodes: {{foot: {{fixed: true}}, tip: {{position: [{}, {}, {}]}}}}\n"
@@ -45,8 +45,8 @@ std::string cantilever(const Vector3& tip, const Vector3& orientation, double EI
       tip[0], tip[1], tip[2], orientation[0], orientation[1], orientation[2], EIy, EIz);
 }
 
-/// Angular frequencies of the cantilever with their names, by R. D. Blevins, Formulas for Natural Frequency and Mode
-/// Shape (1979), tables 8-1, 8-16 and 8-19.
+/// Returns the angular frequencies of the cantilever with their names, by R. D. Blevins, Formulas for Natural Frequency
+/// and Mode Shape (1979), tables 8-1, 8-16 and 8-19.
 std::vector<std::pair<double, std::string>> cantilever_modes(double EIy, double EIz) {
   const char* const order[] = {"1st", "2nd", "3rd", "4th"};
   const double roots[] = {1.87510407, 4.69409113, 7.85475744, 10.99554073};
@@ -62,7 +62,7 @@ std::vector<std::pair<double, std::string>> cantilever_modes(double EIy, double 
   return modes;
 }
 
-/// A tower with a nacelle and three blades on a shaft through their middle; z up, the shaft along x.
+/// Returns a tower with a nacelle and three blades on a shaft through their middle; z up, the shaft along x.
 /// @param turn  angle of everything about z [rad] @param pieces  whether each blade is an entry or two, of as many
 /// elements
 std::string turbine(double turn, const std::string& gravity = "gravity: [0, 0, -9.81]\n", int pieces = 1) {
@@ -200,7 +200,7 @@ TEST_CASE("names of a turbine are the same however it is drawn", "[linearised]")
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   CHECK(names_of(across, behind_shaft(across, 2, 10)) == names);
   CHECK(names_of(skew, behind_shaft(skew, 2, 10)) == names);
-  // Without gravity the tower tells the vertical.
+  // Without gravity the axis of the tower defines the vertical.
   CHECK(names_of(without, behind_shaft(without, 2, 10)) == names);
   CHECK(names_of(model, behind_shaft(model, -2, 10)) == names);
 }

@@ -11,8 +11,8 @@ using namespace bielle::test;
 
 namespace {
 
-/// A free beam of unit mass, length and stiffness (EI = 1), obliquely in space, with a spring of force P (pulls its
-/// ends together) between its own ends.
+/// Returns a free beam of unit mass, length and stiffness (EI = 1), obliquely in space, with a spring of force P (pulls
+/// its ends together) between its own ends.
 std::string tied_beam(double P, const std::string& element) {
   return fmt::format(
       "gravity: [0, 0, 0]\nnodes: {{a: {{position: [0, 0, 0]}}, b: {{position: [1, 0, 0]}}}}\n"
@@ -56,7 +56,7 @@ std::vector<double> first_of(std::vector<double> values, std::size_t count) {
   return values;
 }
 
-/// Rods of length l between ball joints along an oblique line, drawn by a force T at a slider at their end.
+/// Returns rods of length l between ball joints along an oblique line, drawn by a force T at a slider at their end.
 std::string taut_chain(int rods, double l, double m, double T) {
   const Eigen::Vector3d d = Eigen::Vector3d(2, -3, 6) / 7, e = Eigen::Vector3d(3, 2, 0).normalized();
   const auto list = [](const Eigen::Vector3d& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double Jp = 0.035, Jt = 0.02, mass = 5, k_tilt = 800;
 
-/// A rigid disc on an axle whose massless bearing rests on springs.
+/// Returns a rigid disc on an axle whose massless bearing rests on springs.
 std::string rotor(double speed, double kx, double ky, const std::string& more = "") {
   return fmt::format(
       "nodes: {{hub: {{position: [0, 0, 0]}}, disc: {{position: [0, 0, 0], angular_velocity: [0, 0, {0}]}}}}\n"

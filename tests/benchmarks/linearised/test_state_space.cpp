@@ -19,7 +19,7 @@ Eigen::MatrixXcd response(const StateSpace& found, double frequency) {
          found.D.cast<Complex>();
 }
 
-/// The largest difference from frequency_response, relative to the largest response at that frequency.
+/// Returns the largest difference from frequency_response, relative to the largest response at that frequency.
 double difference(Session& session, const StateSpaceOptions& options, const std::vector<double>& frequencies) {
   const StateSpace found = compute_state_space(session, options);
   FrequencyResponseOptions same{options.inputs, options.outputs, frequencies, options.rotation};

@@ -32,7 +32,7 @@ const std::string frame =
     "joints: {pivot: {type: spherical, nodes: [m, bob], position: [1, 0, 0]}}\n"
     "measures: {bears: pivot.reaction.z, speed: bob.velocity.x}\n";
 
-/// A spinning disc on an elastic mast, with a controller that pushes across it: gyroscopic, and not symmetric.
+/// Returns a spinning disc on an elastic mast, with a controller that pushes across it: gyroscopic, and not symmetric.
 std::string rotor(double speed, double across) {
   return fmt::format(
       "nodes: {{foot: {{position: [0, 0, 0], fixed: true}}, head: {{position: [0, 0, 1]}}, disc: {{position: [0, 0, "
@@ -59,7 +59,7 @@ FrequencyResponseOptions asked(const ModesOf& model, const std::string& in, cons
   return options;
 }
 
-/// The largest deviation of the sum from the direct answer, relative to the latter's mean size.
+/// Returns the largest deviation of the sum from the direct answer, relative to the latter's mean size.
 double deviation(const ModesOf& model, FrequencyResponseOptions options, int modes, double& told) {
   const FrequencyResponse direct = compute_frequency_response(model.session, options);
   options.modes = modes;

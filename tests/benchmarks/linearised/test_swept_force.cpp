@@ -12,7 +12,7 @@ namespace {
 
 constexpr double first = 2, last = 9, duration = 120;  // [Hz], [s]
 
-/// A pendulum below a block on a spring: constraints, gravity, two resonances. Small motions.
+/// Returns a pendulum below a block on a spring: constraints, gravity, two resonances. Small motions.
 std::string crane(const std::string& force) {
   return "gravity: [0, 0, -9.81]\n"
          "nodes:\n  block: {position: [0, 0, 0], fixed: [y, z, rx, ry, rz]}\n  bob: {position: [0, 0, -0.1]}\n"

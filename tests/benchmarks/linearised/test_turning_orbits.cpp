@@ -19,7 +19,8 @@ struct Hub {
   double mass, ky, kz, cy, cz;
 };
 
-/// Blades of 2 kg with lag hinges in a vertical plane. @param first  mass of the first blade relative to the others
+/// Returns blades of 2 kg with lag hinges in a vertical plane. @param first  mass of the first blade relative to the
+/// others
 /// @param hinge  distance of the hinges from the axis [m]
 std::string blades(int count, double spring, const std::optional<Hub>& hub, const std::string& drive = "rate: 6",
                    double damping = 0.3, double first = 1, double hinge = 0.2) {
@@ -55,7 +56,7 @@ std::string blades(int count, double spring, const std::optional<Hub>& hub, cons
 
 constexpr Hub springs{20, 9000, 14000, 30, 50};
 
-/// A mass of 1 kg at 0.5 m on a rotor that turns freely in a hub on springs.
+/// Returns a mass of 1 kg at 0.5 m on a rotor that turns freely in a hub on springs.
 std::string unbalanced(const std::string& damping = "", const std::string& drive = "") {
   std::string text =
       "nodes: {hub: {fixed: [z, rx, ry, rz]}, rotor: {}, p: {position: [0.5, 0, 0]}}\n"
@@ -91,7 +92,7 @@ struct Turning {
       if (mode.kind != ModeKind::rigid) list.push_back(mode.s);
     return list;
   }
-  /// The periodic motion.
+  /// Returns the periodic motion.
   PeriodicOrbit orbit() const {
     const StandingState& about = report.about;
     const System& system = model.session.system();
@@ -106,7 +107,7 @@ struct Turning {
   }
 };
 
-/// Distance of an exponent, or its conjugate, from another one modulo i rate.
+/// Returns the distance of an exponent, or its conjugate, from another one modulo i rate.
 double distance(Complex s, Complex exact, double rate) {
   const auto apart = [&](Complex a) { return Complex(a.real(), std::remainder(a.imag(), rate)); };
   return std::min(std::abs(apart(s - exact)), std::abs(apart(std::conj(s) - exact)));
@@ -177,7 +178,7 @@ TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations
 }
 
 TEST_CASE("slow blades have the exponents that a search around a frequency finds among all copies", "[linearised]") {
-  // The search knows nothing of the mean state, and takes the copy with the largest harmonic.
+  // The search does not use the mean state, and takes the copy with the largest harmonic.
   const double rate = 0.3;
   const Turning turning(blades(3, 60, springs, "rate: 0.3"), rate);
   CHECK(turning.report.turning->harmonics > 8);

@@ -71,7 +71,7 @@ void check_multipliers(const std::vector<Complex>& exponents, const Eigen::Vecto
   CHECK(left.empty());
 }
 
-/// Two blades with lag springs, lightly damped, on supports that differ.
+/// Returns two blades with lag springs, lightly damped, on supports that differ.
 LagRotor slow_rotor(double rate) {
   LagRotor rotor;
   rotor.blades = 2;

@@ -28,7 +28,8 @@ struct Turning {
   void turns(const char* at, const Vector3& direction) { options.outputs.push_back({at, node(at), true, direction}); }
   FrequencyResponse responses() const { return compute_frequency_response(model.session, options); }
 
-  /// The largest difference of the responses of the state space, relative to the largest response at a frequency.
+  /// Returns the largest difference of the responses of the state space, relative to the largest response at a
+  /// frequency.
   double difference_of_state_space() const {
     const FrequencyResponse exact = responses();
     const StateSpace found = compute_state_space(model.session, {options.inputs, options.outputs, options.rotation});
@@ -45,8 +46,8 @@ struct Turning {
   }
 };
 
-/// The part with the frequency of a force exp(s t) along x on a blade, of the displacement along x of a blade: with
-/// x = exp(s t) p(t), p of the period of the rotation.
+/// Returns the part with the frequency of a force exp(s t) along x on a blade, of the displacement along x of a blade:
+/// with x = exp(s t) p(t), p of the period of the rotation.
 Complex blade_response(const LagRotor& rotor, int forced, int seen, Complex s, int steps) {
   const int n = 2 + rotor.blades;
   const auto sine_of = [&](int blade, double psi) { return std::sin(psi + two_pi * blade / rotor.blades); };

@@ -39,7 +39,7 @@ ModesReport modes_at(double e, double speed) {
   return compute_modes(model.session, options);
 }
 
-/// S of the motions in the plane.
+/// Returns S of the motions in the plane.
 std::array<std::complex<double>, 2> in_plane(double e, double speed) {
   const double w2 = k / m, O2 = speed * speed, g = w2 - O2, j = J / m, b = w2 * e * e, a = b * O2 / g;
   const double half = (a + b + 2 * j * (w2 + O2)) / (2 * j);
@@ -53,7 +53,7 @@ bool any_grows(const ModesReport& report) {
                      [](const Mode& mode) { return mode.kind == ModeKind::growing; });
 }
 
-/// A mode's s^2 nearest to S, relative to it.
+/// Returns a mode's s^2 nearest to S, relative to it.
 double gap(const ModesReport& report, std::complex<double> S) {
   double least = INFINITY;
   for (const Mode& mode : report.found.modes)

@@ -14,7 +14,7 @@
 
 namespace bielle::test {
 
-/// A disc on a massless bearing with springs, along z.
+/// Returns a disc on a massless bearing with springs, along z.
 inline std::string disc_on_springs(double mass, const std::string& inertia, const std::string& springs) {
   return fmt::format(
       "nodes: {{hub: {{}}, disc: {{}}}}\n"
@@ -86,7 +86,7 @@ struct LagRotor {
     return first;
   }
 
-  /// Floquet multipliers of a whole turn, by Runge-Kutta's method of fourth order.
+  /// Returns the Floquet multipliers of a whole turn, by Runge-Kutta's method of fourth order.
   Eigen::VectorXcd multipliers(int steps) const {
     const double T = two_pi / rate, h = T / steps;
     const int n = 2 * (2 + blades);
@@ -101,7 +101,8 @@ struct LagRotor {
     return eigenvalues(Phi);
   }
 
-  /// Exponents of the multiblade equations (W. Johnson, Helicopter Theory (1980), 12-4) of equal blades, Im s > 0.
+  /// Returns the exponents of the multiblade equations (W. Johnson, Helicopter Theory (1980), 12-4) of equal blades, Im
+  /// s > 0.
   std::vector<std::complex<double>> multiblade() const {
     const double K = k + rate * rate * e * S, N = blades, damper = c[0];
     Eigen::Matrix4d mass = Eigen::Matrix4d::Zero(), damping = mass, stiffness = mass;  // x, y, a1, b1

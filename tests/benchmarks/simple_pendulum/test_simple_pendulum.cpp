@@ -14,10 +14,11 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// A point mass that a hinge on a massless frame holds. If `direct`, the body's node is at the mass, else at the pivot.
+/// Returns a point mass that a hinge on a massless frame holds. If `direct`, the body's node is at the mass, else at
+/// the pivot.
 std::string pendulum(bool direct) {
   const std::string head = "gravity: [0, -9.81, 0]\n";
-  // The rod's inertia about the mass is zero: a body with almost none turns about z all the same.
+  // The rod has no inertia about the mass. A body with almost no inertia rotates about z nevertheless.
   const std::string inertia = "inertia: [1e-12, 1e-12, 1e-12]";
   return head +
          (direct ? "nodes: {bob: {position: [-1, 0, 0]}}\n"

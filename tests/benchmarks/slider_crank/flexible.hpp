@@ -17,7 +17,7 @@ namespace bielle::test::flexible_crank {
 
 using namespace bielle::mechanism;
 
-/// The mechanism in the plane, in line at the start; the rod spans the nodes `a` and `b`.
+/// Returns the mechanism in the plane, in line at the start; the rod spans the nodes `a` and `b`.
 inline std::string slider_crank(const std::string& rod) {
   return R"yaml(
 nodes:
@@ -46,13 +46,13 @@ inline std::string beam_rod(int elements) {
          "shear_factors: [0.8333333333333333, 0.8333333333333333]}}\n";
 }
 
-/// Deflection of a point from the line between a and b, positive to the left of the way from a to b.
+/// Returns the deflection of a point from the line between a and b, positive to the left of the way from a to b.
 inline double deflection(const Vector3& point, const Vector3& a, const Vector3& b) {
   const Vector3 along = (b - a).normalized();
   return Vector3(-along.y(), along.x(), 0).dot(point - a);
 }
 
-/// The rod reduced to its ends and fixed-boundary modes. @param prestress  with geometric stiffness
+/// Returns the rod reduced to its ends and fixed-boundary modes. @param prestress  with geometric stiffness
 inline BeamSuperelement reduced_rod(bool prestress, double stiffening = 1) {
   BeamChain chain;
   const int elements = 20;

@@ -18,7 +18,7 @@ using bielle::test::ReadyModel;
 namespace test_rigid {
 namespace {
 
-/// Planar mechanism in space, closed by hinges: redundant constraints are set aside.
+/// Returns a planar mechanism in space, closed by hinges: redundant constraints are set aside.
 std::string slider_crank(const std::string& drives) {
   return R"yaml(
 nodes:

@@ -20,7 +20,7 @@ double parabola(double x, double middle, double end) { return 4 * x * (1 - x) * 
 
 double stretch(double x) { return parabola(x, 0.103339863e-4, 0.169327969e-4); }
 
-/// Rate of the deformation relative to the turning line.
+/// Returns the rate of the deformation relative to the turning line.
 Vector3 deformation_rate(double x) {
   return {parabola(x, -0.178591076e-5, -0.268938672e-5),
           turning * stretch(x) + 0.444896105 * std::sin(M_PI * x) + 0.463434311e-2 * std::sin(2 * M_PI * x), 0};
@@ -119,7 +119,8 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
 
 constexpr double response = 1.56e-3;  ///< size of the deflection [m]
 
-/// Number of the geometrically exact rod (GA = 5/6 G A) by a spectral element, tests/references/flexible_crank.py.
+/// Returns the number of the geometrically exact rod (GA = 5/6 G A) by a spectral element,
+/// tests/references/flexible_crank.py.
 double exact_number(const std::string& name) {
   return bielle::test::ReferenceTable("flexible_crank")("smooth_start." + name);
 }

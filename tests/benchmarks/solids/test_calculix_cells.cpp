@@ -17,7 +17,7 @@ using namespace bielle::reduce;
 
 namespace test_calculix_cells {
 
-/// The cells of the script: images of the reference cell under a linear map, or distorted with straight edges.
+/// Returns the cells of the script: images of the reference cell under a linear map, or distorted with straight edges.
 Mesh single_cell(CellType type, bool distorted) {
   Eigen::Matrix3d A;
   A << 1.1, 0.2, -0.1, 0.1, 0.9, 0.3, 0.05, -0.2, 1.2;
@@ -32,7 +32,7 @@ Mesh single_cell(CellType type, bool distorted) {
   return mesh;
 }
 
-/// Four displacement fields, (3 nodes, 4).
+/// Returns four displacement fields, (3 nodes, 4).
 RowMatrix fields(const Mesh& mesh) {
   RowMatrix u(3 * mesh.point_count(), 4);
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a)
@@ -43,7 +43,7 @@ RowMatrix fields(const Mesh& mesh) {
   return u;
 }
 
-/// Largest difference of the forms u^T A v to those of the table, by the largest of them.
+/// Returns the largest difference of the forms u^T A v to those of the table, by the largest of them.
 double difference(const Eigen::MatrixXd& forms, const std::string& name) {
   static const test::ReferenceTable calculix("calculix_cells");
   double worst = 0, largest = 0;
@@ -56,7 +56,7 @@ double difference(const Eigen::MatrixXd& forms, const std::string& name) {
   return worst / largest;
 }
 
-/// Points of `low` in the triangle times Gauss' points along the height.
+/// Returns the points of `low` in the triangle times Gauss' points along the height.
 Quadrature wedge_rule(const Quadrature& triangle, int height) {
   const Quadrature line = cell_quadrature(CellType::hex8, height);  // its first points differ in one coordinate alone
   std::map<double, double> along;

@@ -27,7 +27,7 @@ struct Beam {
   test::PointMap shape;  ///< from the box, whose end x = 0 is held
 };
 
-/// Displacement of the tip along a unit force that is spread over it.
+/// Returns the displacement of the tip along a unit force that is spread over it.
 double tip_displacement(const Beam& beam, CellType type, const Eigen::Vector3d& direction) {
   const Mesh mesh = cell_box(type, beam.size, beam.bricks, {}, beam.shape);
   const Mesh drawn = cell_box(type, beam.size, beam.bricks);

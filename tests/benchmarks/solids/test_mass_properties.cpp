@@ -43,14 +43,14 @@ MassProperties body(double volume, const Eigen::Vector3d& centre, const Eigen::M
   return result;
 }
 
-/// Relative errors of mass, centre (in radii of gyration) and inertia.
+/// Returns the relative errors of mass, centre (in radii of gyration) and inertia.
 Eigen::Vector3d errors(const MassProperties& found, const MassProperties& exact) {
   const double gyration = std::sqrt(exact.inertia.trace() / (2 * exact.mass));
   return {std::abs(found.mass / exact.mass - 1), (found.centre - exact.centre).norm() / gyration,
           (found.inertia - exact.inertia).norm() / exact.inertia.norm()};
 }
 
-/// Least-squares slope of log(error) over log(size).
+/// Returns the least-squares slope of log(error) over log(size).
 double order(const std::vector<double>& sizes, const Eigen::VectorXd& error) {
   const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), sizes.size()).log(), y = error.array().log();
   return ((x - x.mean()) * (y - y.mean())).sum() / (x - x.mean()).square().sum();

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double young = 1e6, poisson = 0.25, density = 1000;
 
-/// Corners of the unit cube, then the inner brick's.
+/// Returns the corners of the unit cube, then the inner brick's.
 Eigen::Matrix<double, 3, 16> vertices() {
   Eigen::Matrix<double, 16, 3> x;
   x << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,  //

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double young = 200e9, poisson = 0.3, density = 8000, side = 10;
 
-/// Frequency [Hz] of a thin square plate with omega a^2 sqrt(rho h / D) = lambda.
+/// Returns the frequency [Hz] of a thin square plate with omega a^2 sqrt(rho h / D) = lambda.
 double thin_plate(double lambda, double thickness) {
   return lambda / (2 * std::numbers::pi * side * side) * thickness *
          std::sqrt(young / (12 * (1 - poisson * poisson) * density));

@@ -27,7 +27,7 @@ namespace {
 constexpr double length = 1, young = 210e9, density = 7800;
 const double speed = std::sqrt(young / density);
 
-/// A stout bar, 1 m x 0.2 m x 0.2 m with n bricks along it, held at the named ends.
+/// Returns a stout bar, 1 m x 0.2 m x 0.2 m with n bricks along it, held at the named ends.
 Superelement bar(int n, const std::vector<std::string>& ends) {
   ReductionOptions options;
   options.name = "bar";
@@ -66,7 +66,7 @@ Eigen::VectorXd free_free(const Superelement& body) {
   return longitudinal(body, modes.vectors, modes.omega / (2 * std::numbers::pi));
 }
 
-/// The free rod with its two ends and n exact fixed-boundary modes.
+/// Returns the free rod with its two ends and n exact fixed-boundary modes.
 Eigen::VectorXd reduced_rod(int n, int count) {
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n + 2, n + 2), m = Eigen::MatrixXd::Identity(n + 2, n + 2);
   k.topLeftCorner<2, 2>() << 1, -1, -1, 1;

@@ -26,7 +26,7 @@ namespace {
 const Material steel = Material::isotropic(210e9, 0.3, 7800);
 constexpr double shear_modulus = 210e9 / 2.6, density = 7800;
 
-/// The body of gmsh's OpenCASCADE kernel that the lines build, lengths in metres.
+/// Returns the body of gmsh's OpenCASCADE kernel that the lines build, lengths in metres.
 Mesh round_body(const std::string& lines, double size, const std::vector<SurfaceSelection>& surfaces = {}) {
   const test::TemporaryFolder folder;
   MeshRequest request;
@@ -46,7 +46,7 @@ RowMatrix nodal_load(const Mesh& mesh, const SurfaceIntegrals& surface, const Ei
   return load;
 }
 
-/// Inertia forces of a body that spins about z.
+/// Returns the inertia forces of a body that spins about z.
 RowMatrix centrifugal(const test::SolidModel& model, double omega) {
   RowMatrix field = RowMatrix::Zero(3 * model.mesh.point_count(), 1);
   for (Eigen::Index p = 0; p < model.mesh.point_count(); ++p)
@@ -54,7 +54,8 @@ RowMatrix centrifugal(const test::SolidModel& model, double omega) {
   return model.mass.multiply(field, 3);
 }
 
-/// Largest of |value / exact - 1| over the nodes at a distance from the z axis, value(node, unit radial vector).
+/// Returns the largest of |value / exact - 1| over the nodes at a distance from the z axis, value(node, unit radial
+/// vector).
 template <class Value>
 double worst_at(const Mesh& mesh, double radius, double exact, const Value& value) {
   double worst = -1;

@@ -32,7 +32,7 @@ TEST_CASE("A tapered membrane (NAFEMS FV32) has the frequencies of plane stress"
     CHECK(found(static_cast<Eigen::Index>(k)) == Approx(target[k]).epsilon(2e-4));
 }
 
-/// Frequency [Hz] of Lamb's lowest antisymmetric wave of wavenumber k in a plate of thickness h.
+/// Returns the frequency [Hz] of Lamb's lowest antisymmetric wave of wavenumber k in a plate of thickness h.
 double lamb(double k, double h) {
   const double ct2 = young / (2 * (1 + poisson)) / density;
   const double cl2 = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)) / density;

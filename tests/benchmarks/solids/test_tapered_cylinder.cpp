@@ -28,7 +28,7 @@ namespace {
 constexpr double young = 210e9, poisson = 0.3, expansion = 2.3e-4, height = 1.79, radius = 1, outer_radius = 1.4;
 constexpr double target = -105e6;  // sigma_zz at A [Pa]
 
-/// A point (r, z) between the sides. @param across  0 inside, 1 outside @param along  0..4, one for each part
+/// Returns a point (r, z) between the sides. @param across  0 inside, 1 outside @param along  0..4, one for each part
 Eigen::Vector2d section_point(double across, double along) {
   const double right_angle = std::numbers::pi / 2, foot = radius / std::sqrt(2.0);
   const auto arc = [](double r, double angle) { return Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle)); };
@@ -44,7 +44,7 @@ Eigen::Vector2d section_point(double across, double along) {
   return between(inside, outside, across);
 }
 
-/// Nodal forces of a stress beta T in all directions: int beta T dN_a/dx_i dV.
+/// Returns the nodal forces of a stress beta T in all directions: int beta T dN_a/dx_i dV.
 RowMatrix thermal_forces(const Mesh& mesh, double beta, const std::function<double(const Eigen::Vector3d&)>& T) {
   RowMatrix forces = RowMatrix::Zero(3 * mesh.point_count(), 1);
   for (const auto& block : mesh.blocks) {
@@ -66,7 +66,7 @@ RowMatrix thermal_forces(const Mesh& mesh, double beta, const std::function<doub
   return forces;
 }
 
-/// sigma_zz at A [Pa]. @param bricks  numbers of bricks across, along and round the quarter
+/// Returns sigma_zz at A [Pa]. @param bricks  numbers of bricks across, along and round the quarter
 double stress_at_A(CellType type, const std::array<int, 3>& bricks) {
   const Mesh mesh = test::cell_box(type, {1, 4, 1}, bricks, {}, [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     const Eigen::Vector2d rz = section_point(x.x(), x.y());

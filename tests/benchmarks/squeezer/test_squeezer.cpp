@@ -35,7 +35,7 @@ Angles at_30_ms() {
           angle("delta"), angle("Omega"), angle("epsilon")};
 }
 
-/// Direction at an angle from the inertial x axis.
+/// Returns the direction at an angle from the inertial x axis.
 Vector3 along(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
 
 std::string node(const std::string& name, const Vector3& x, double angle) {

@@ -63,7 +63,8 @@ struct SolidBar {
     return reduce::reduce_body(mesh, options, quiet, 2);
   }
 
-  /// Flexibility of the tip, root clamped, body axes, by unit compliances 1/EA, 1/GA, 1/GJ, 1/EI of the section.
+  /// Returns the flexibility of the tip, root clamped, body axes, by unit compliances 1/EA, 1/GA, 1/GJ, 1/EI of the
+  /// section.
   std::array<Matrix6, 4> flexibilities() const {
     std::array<Matrix6, 4> result;
     for (Matrix6& F : result) F.setZero();
@@ -97,7 +98,7 @@ struct SolidBar {
   }
 };
 
-/// Nodes n0 (held) to n<pieces> along an axis, with the same superelement between each two of them.
+/// Returns the nodes n0 (held) to n<pieces> along an axis, with the same superelement between each two of them.
 inline std::string chain_of_pieces(const SolidBar& piece, int pieces, const std::string& file) {
   std::string nodes = "nodes:\n", elements = "elements:\n";
   for (int k = 0; k <= pieces; ++k)
@@ -112,7 +113,7 @@ inline std::string chain_of_pieces(const SolidBar& piece, int pieces, const std:
   return nodes + elements;
 }
 
-/// The whole as a beam from n0 (held) to tip.
+/// Returns the whole as a beam from n0 (held) to tip.
 inline std::string exact_beam(const BarAxis& axis, double length, const std::string& section, int elements) {
   return fmt::format(
       "nodes: {{n0: {{fixed: true}}, tip: {{position: {}}}}}\n"

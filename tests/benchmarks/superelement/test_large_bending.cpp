@@ -20,7 +20,7 @@ namespace {
 
 constexpr double floor_of_residual = 1e-5;  // EA epsilon |x| / L of the pieces is 1e-8 to 1e-7
 
-/// Displacement of a model's node under its loads.
+/// Returns the displacement of a model's node under its loads.
 Vector3 displacement(const std::string& model, const std::string& node, int steps) {
   StaticModel statics(model);
   const Vector3 start = statics.node(node).x;

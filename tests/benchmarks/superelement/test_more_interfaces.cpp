@@ -27,8 +27,8 @@ const std::string section = fmt::format(
     "Jz: 1e-3}}",
     EA, GJ, EI);
 
-/// Two legs of ten metres from the origin, the first along x, with interfaces at both ends and, if wanted, between the
-/// legs.
+/// Returns two legs of ten metres from the origin, the first along x, with interfaces at both ends and, if wanted,
+/// between the legs.
 BeamChain two_legs(const Vector3& second, bool middle, int modes) {
   BeamChain chain;
   for (int k = 0; k <= 2 * elements_per_leg; ++k) {
@@ -43,7 +43,7 @@ BeamChain two_legs(const Vector3& second, bool middle, int modes) {
   return chain;
 }
 
-/// Names of interfaces of these chains: a, b, c in the order above.
+/// Returns the names of interfaces of these chains: a, b, c in the order above.
 std::string nodes_of(const Vector3& second, const std::string& held) {
   const Vector3 middle(leg, 0, 0), tip = middle + leg * second;
   return fmt::format("nodes:\n  n0: {{{}}}\n  n1: {{position: [{}, {}, {}]}}\n  n2: {{position: [{}, {}, {}]}}\n", held,
@@ -109,7 +109,8 @@ void check_third_order(const std::string& element, const Vector3& second, double
   }
 }
 
-/// Position of the tip as seen from the root, which turns about z by `angle` in 60 s and stays there for 20 s.
+/// Returns the position of the tip as seen from the root, which turns about z by `angle` in 60 s and stays there for 20
+/// s.
 std::vector<Vector3> turned_tip(const std::string& elements, const Vector3& second, double angle) {
   const std::string held = fmt::format(
       "fixed: [x, y, z, rx, ry], motion: {{rz: \"if(t < 60, {:.17g}*(t/60 - sin(2*pi*t/60)/(2*pi)), {:.17g})\"}}",

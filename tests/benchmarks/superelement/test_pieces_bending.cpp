@@ -28,7 +28,7 @@ namespace {
 constexpr double young = 210e9, width = 0.005;
 constexpr double bending_stiffness = young * width * width * width * width / 12;
 
-/// A bar 1 m x 5 mm x 5 mm along x, cut into equal pieces without modes, which statics does not need.
+/// Returns a bar 1 m x 5 mm x 5 mm along x, cut into equal pieces without modes, which statics does not need.
 CutBody bar_in_pieces(int count, double poisson, int bricks = 64) {
   reduce::ReductionOptions options;
   options.name = "bar";
@@ -48,7 +48,7 @@ CutBody bar_in_pieces(int count, double poisson, int bricks = 64) {
   return reduce::reduce_pieces(mesh, cuts, options, {reduce::Tie::rigid, false}, quiet, 2);
 }
 
-/// Position and angle of the tip under a moment that turns a bar of EI by `angle`.
+/// Returns the position and angle of the tip under a moment that turns a bar of EI by `angle`.
 Vector3 bent_tip(const CutBody& body, double angle) {
   const test::TemporaryFolder folder;
   write_cut_body(body, folder / "bar.h5");
@@ -61,7 +61,7 @@ Vector3 bent_tip(const CutBody& body, double angle) {
   return {model.node("tip").x.x(), model.node("tip").x.y(), log_so3(model.node("tip").R).z()};
 }
 
-/// Tip position of the circle with this angle at its end.
+/// Returns the tip position of the circle with this angle at its end.
 Eigen::Vector2d circle(double angle) { return {std::sin(angle) / angle, (1 - std::cos(angle)) / angle}; }
 
 }  // namespace

@@ -76,7 +76,7 @@ struct Block : Placed {
   }
 };
 
-/// A beam of length 1 and 8 elements along a line: place and turn of its nodes by s in 0..1.
+/// Returns a beam of length 1 and 8 elements along a line: place and turn of its nodes by s in 0..1.
 /// @param section  a shape with its dimensions, or constants
 std::string beam_says(const std::string& section, const std::function<Vector3(double)>& x,
                       const std::function<Vector3(double)>& turn) {

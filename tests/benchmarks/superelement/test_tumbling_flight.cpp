@@ -33,7 +33,8 @@ std::string node_text(const std::string& name, const Vector3& x, const Vector3& 
       name, x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
 }
 
-/// Start velocities of the first bending mode with the displacement `amplitude` at the ends: reduced coordinates.
+/// Returns the start velocities of the first bending mode with the displacement `amplitude` at the ends: reduced
+/// coordinates.
 VectorX mode_velocity(const BeamSuperelement& reduced, double amplitude) {
   const bielle::SymmetricEigenpairs eigen =
       bielle::symmetric_eigenpairs(reduced.body.stiffness, reduced.body.mass).value();

@@ -21,7 +21,7 @@ namespace {
 constexpr double EI = 1e7 / 12, GJ = 7.03e5, EA = 1e8, length = 16;
 const std::string section = fmt::format("{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}}}", EA, GJ, EI);
 
-/// Estimated error of the model's superelement, at its static equilibrium.
+/// Returns the estimated error of the model's superelement, at its static equilibrium.
 double estimate_of(const std::string& text) {
   const ReadyModel model(text);
   Environment environment = model.environment();
@@ -34,7 +34,7 @@ double estimate_of(const std::string& text) {
   return gatherer->results()[0].values[0];
 }
 
-/// The bar as a chain of beam elements with a mesh.
+/// Returns the bar as a chain of beam elements with a mesh.
 BeamSuperelement bar_with(const BarAxis& axis, const std::vector<BeamInterface>& interfaces, int elements = 48) {
   BeamChain chain;
   for (int k = 0; k <= elements; ++k) chain.nodes.push_back(axis.point(length * k / elements));
@@ -46,7 +46,7 @@ BeamSuperelement bar_with(const BarAxis& axis, const std::vector<BeamInterface>&
   return reduced;
 }
 
-/// Displacements of a node at static equilibrium.
+/// Returns the displacements of a node at static equilibrium.
 Vector3 moved(const std::string& text, const std::string& node) {
   const ReadyModel model(text);
   Environment environment = model.environment();

@@ -41,7 +41,7 @@ Superelement reduced_strip(Tie a, int modes) {
   return reduce_body(test::box_mesh(strip), options, quiet, 2);
 }
 
-/// The modes that bend along z: their mass lies in component 33.
+/// Returns the modes that bend along z: their mass lies in component 33.
 std::vector<int> bending_modes(const Superelement& body) {
   std::vector<int> result;
   for (Eigen::Index k = body.interface_directions(); k < body.size(); ++k) {

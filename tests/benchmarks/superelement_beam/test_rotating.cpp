@@ -17,7 +17,8 @@ using namespace bielle::reduce;
 
 namespace {
 
-/// A beam along x, 1 m x 20 mm x 20 mm. Without contraction a held end suppresses nothing, as in the theory of beams.
+/// Returns a beam along x, 1 m x 20 mm x 20 mm. Without contraction a held end suppresses nothing, as in the theory of
+/// beams.
 Superelement beam(Tie a) {
   ReductionOptions options;
   options.name = "beam";

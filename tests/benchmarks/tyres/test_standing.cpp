@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 constexpr double m = 20, most = 0.8 * 200;  // friction of the load of 200 N
 const Vector2d K(4e3 / 0.2, 3e3 / 0.3);     // stiffness of the tread
 
-/// A wheel that does not turn and is pressed in by 10 mm, under loads along the road.
+/// Returns a wheel that does not turn and is pressed in by 10 mm, under loads along the road.
 std::string standing(const std::string& load, const std::string& slip) {
   return fmt::format(R"yaml(
 nodes: {{hub: {{position: [0, 0, 0.49], fixed: [z, rx, ry, rz]}}}}
@@ -37,7 +37,7 @@ Vector2d force_of(const Session& session) {
   return {force[0], force[1]};
 }
 
-/// A steady load, a part of the friction, begins suddenly, and shakes.
+/// Returns a steady load, a part of the friction, which begins suddenly, and shakes.
 std::string shaken(double steady) { return fmt::format("160*({} + 0.1*sin(2*pi*t)), 160*0.05", steady); }
 
 TEST_CASE("a standing tyre that is shaken below its friction does not creep") {

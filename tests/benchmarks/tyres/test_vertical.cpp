@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double g = 9.81, k = 2e4, m = 20;
 
-/// A wheel that does not turn, guided in the plane of x and z.
+/// Returns a wheel that does not turn, guided in the plane of x and z.
 std::string block(const std::string& gravity, double height, const std::string& tyre, const std::string& more = "") {
   return fmt::format(R"yaml(
 gravity: {}

@@ -34,7 +34,7 @@ class Trebuchet(ExampleTest):
         self.assertGreater(height[-1], 5)
         place = self.flight.rows("nodes/stone/position")[-1]
         self.assertAlmostEqual(place[2], 0.12, delta=1e-6)
-        # It cannot fly farther than with all the energy of the weight, which sinks by less than twice the short arm.
+        # The range is less than that for all the energy of the weight, which sinks by less than twice the short arm.
         self.assertTrue(200 < place[0] < 2 * 2500 / 20 * 2)
 
     def test_energy_balance_closes(self):

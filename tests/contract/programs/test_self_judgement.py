@@ -168,7 +168,7 @@ class SelfJudgement(CommandTest):
             self.assertLess(abs(errors), 0.05 * abs(gap), text)
             self.assertEqual("warning: the scheme's own dissipation took" in text, warned, text)
             self.assertNotIn("energy grows", text)
-        # The pendulum gains energy by errors, and the scheme hides part of it.
+        # Errors add energy to the pendulum, and the dissipation of the scheme hides a part of this.
         (gap, scheme, errors), text = parts(PENDULUM.format(duration=0.4, step=0.05, rho=0.8))
         self.assertLess(scheme, 0)
         self.assertGreater(errors, 0.01)

@@ -28,14 +28,15 @@ class AgainstTheProgram(WithModel):
         return output
 
     def expect_equal(self, expected, results):
-        """Everything of an analysis in a results file, and nothing else."""
+        """Checks that the results contain the same datasets as an analysis in a results file, and no others."""
         expected = recorded(expected)
         self.assertEqual(set(expected), {"time", *results.datasets})
         self.assertEqual({values.dtype for values in expected.values()}, {np.dtype(float)})
         expect_equal_values({name: results[name] for name in expected}, expected)
 
     def expect_same_run(self, model):
-        """As a whole in memory, with a file, and analysis by analysis in a session."""
+        """Runs a model as a whole in memory, with a file, and analysis by analysis in a session, and compares the
+        results."""
         written = os.path.join(self.folder, "python.h5")
         whole, with_file = bielle.run(model), bielle.run(model, written)
         session = bielle.load(model).session()

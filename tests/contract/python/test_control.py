@@ -21,7 +21,8 @@ def turned(time):
 
 
 def driven(steps, when, smooth):
-    """The angle at the end; before each step the torque is set to its value at a share `when` of that step."""
+    """Returns the angle at the end. Before each step the torque is set to its value at a fraction `when` of that
+    step."""
     session = bielle.read(WHEEL).session()
     size = DURATION / steps
     motion = session.dynamics(DURATION, size)

@@ -150,7 +150,7 @@ class Sessions(unittest.TestCase):
         self.assertEqual(motion.time, 0.4)
         motion.finish()
         np.testing.assert_array_equal(session.state.positions, end.positions)
-        # In another session, of another copy of the model.
+        # The saved motion continues in another session, of another copy of the model.
         other = bielle.read(PENDULUM).session()
         self.assertIn("no motion is under way", self.refusal(lambda: other.restore(saved)))
         other.dynamics(1, 1e-3, saved=saved).finish()

@@ -9,7 +9,8 @@ import re
 
 from includes import INCLUDE, sources
 
-# Eigen/LU also defines `inverse()`, but so do arrays, diagonals and rotations, which a look at the text does not tell apart.
+# Eigen/LU also defines `inverse()`, but so do arrays, diagonals and rotations, and the text does not show which of them
+# is meant.
 USES = {
     "Geometry": re.compile(r"\.cross\(|\.unitOrthogonal\(|\bEigen::(Quaterniond|AngleAxisd|Isometry3d)\b"),
     "LU": re.compile(r"\.determinant\(|[pP]artialPivLu|[fF]ullPivLu|\.lu\(\)"),

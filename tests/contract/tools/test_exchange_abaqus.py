@@ -113,7 +113,7 @@ class Assembled(Exchange):
         self.refuse("abaqus", self.files(stiffness.replace("6", "7"), mass), "2 nodes with 3 or 6 unknowns each do not make the 7 rows")
 
     def test_no_damping(self):
-        """A body without damping has no file of it, and an empty one is none."""
+        """A body without damping, or with an empty damping matrix, has no damping file."""
         body = cloud_body(damping=False)
         body.damping = 0 * body.stiffness
         body.damping.eliminate_zeros()

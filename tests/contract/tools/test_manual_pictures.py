@@ -65,7 +65,7 @@ class Pages(InFolder):
         return self.path(name)
 
     def gathered(self, *names, **options):
-        """Draws pages of the folder. @returns Gathered, with the sentences that were told in `said`"""
+        """Draws pages of the folder. @returns Gathered, and puts the reported sentences into `said`"""
         environment = {**pages.environment_of(REPOSITORY, PROGRAMS, gathering.TOOLS), "OPENBLAS_NUM_THREADS": "1"}
         self.said = []
         return gather(REPOSITORY, {name: self.path(name) for name in names}, PROGRAMS, environment, self.path("kept"), 2, self.said.append)

@@ -349,7 +349,7 @@ class Viewed(Pages, InFolder):
         places = "const f = bielle.shown.flexible[0]; return Array.from(f.body.nodes, (node, k) => bielle.real(f.corner(k)))"
         self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(7.3)")
         exact, stress = self.run_script(places), self.run_script("return Array.from(bielle.shown.flexible[0].values)")
-        # In motion, the points that are drawn are the same; the others are placed when they are asked for.
+        # During a motion the drawn points are the same; the others are only computed on request.
         found = self.run_script(f"""bielle.player.go(3); bielle.shown.flexible[0].detail(arguments[0]); bielle.player.go(7.3); const f = bielle.shown.flexible[0], i = f.geometry.index;
             const coarse = [f.level, i.count, Math.max(...i.array), Array.from(f.values)]; return [...coarse, (() => {{ {places} }})(), Array.from(f.values)];""", levels[-1][0])
         self.assertEqual(found[:2], [len(levels) - 1, levels[-1][2]])

@@ -18,7 +18,7 @@ struct FieldKind {
   const char* description;
 };
 
-/// In the order of RecoveredField::Kind.
+/// The kinds of fields, in the order of RecoveredField::Kind.
 constexpr std::array<FieldKind, 6> field_kinds = {
     {{"displacement", 3, "m", "displacement of the nodes of the superelement's mesh, body axes"},
      {"stress", 6, "Pa", "xx yy zz yz xz xy at the stress nodes of the superelement's file, body axes"},
@@ -67,7 +67,7 @@ void RecoveredField::check(const StressRecovery& stress, const std::string& supe
 void RecoveredField::derive(const StressRecovery& stress, int row, const double* s, double* values) const {
   switch (kind_) {
     case Kind::displacement:
-      break;  // does not follow from stress
+      break;  // displacements do not follow from stress
     case Kind::stress:
       std::copy_n(s, 6, values);
       break;

@@ -83,7 +83,7 @@ void multiply_rows(const RecoveryMatrix& matrix, Eigen::Index begin, Eigen::Inde
 }
 
 int recovery_threads(Eigen::Index rows, Eigen::Index coordinates, int frames) {
-  constexpr double worth = 1e6;  // number of multiplications, some 0.1 ms
+  constexpr double worth = 1e6;  // multiplications that justify a further thread, some 0.1 ms
   const double work = static_cast<double>(rows) * static_cast<double>(coordinates) * frames;
   return std::clamp(static_cast<int>(work / worth), 1, omp_get_max_threads());
 }

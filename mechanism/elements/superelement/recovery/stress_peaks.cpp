@@ -17,7 +17,7 @@ namespace {
 struct PeakKind {
   const char* dataset;
   const char* sentence;
-  double sign;  ///< -1: the smallest is recorded
+  double sign;  ///< -1: the smallest value is recorded
 };
 
 /// They are in the order of StressPeaks::Kind.
@@ -25,15 +25,15 @@ constexpr std::array<PeakKind, 3> peak_kinds = {{{"von_mises", "largest von Mise
                                                  {"largest_principal", "largest principal stress", 1},
                                                  {"least_principal", "least principal stress", -1}}};
 
-/// If values are equal, the first in time is taken, then the first node: the result does not depend on the order of
-/// evaluation.
+/// Returns whether a peak exceeds another one. If values are equal, the first in time is taken, then the first node, so
+/// that the result does not depend on the order of evaluation.
 bool exceeds(const StressPeak& one, const StressPeak& other, double sign) {
   if (one.row < 0 || other.row < 0) return one.row >= 0 && other.row < 0;
   if (one.value != other.value) return sign * one.value > sign * other.value;
   return one.time != other.time ? one.time < other.time : one.row < other.row;
 }
 
-/// This name denotes the region of all nodes; a volume group may have the same name.
+/// Name of the region of all nodes. A volume group in the file may have the same name.
 constexpr const char* the_whole = "all";
 
 /// Returns a name of a group that differs from that of the whole body and from those of the other groups.
@@ -65,7 +65,8 @@ StressPeaks::StressPeaks(std::string body, std::shared_ptr<const StressRecovery>
   std::vector<std::vector<int>> groups(stress_->nodes.size());
   for (std::size_t g = 0; g < stress_->groups.size(); ++g) {
     const bool is_whole = stress_->group_rows[g].size() == stress_->nodes.size();
-    if (is_whole && stress_->groups[g] == the_whole) continue;  // geometries without groups have this one
+    // Geometries without groups have a group of this name; the whole body is a region already.
+    if (is_whole && stress_->groups[g] == the_whole) continue;
     for (const int row : stress_->group_rows[g])
       groups[static_cast<std::size_t>(row)].push_back(static_cast<int>(regions_.size()));
     regions_.push_back(own_name(stress_->groups[g], stress_->groups));

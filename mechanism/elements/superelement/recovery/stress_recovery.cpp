@@ -45,7 +45,8 @@ int StressRecovery::nearest(const Vector3& point) const {
   Eigen::VectorXd others = (points.colwise() - Vector3(points.col(row))).colwise().squaredNorm();
   others[row] = others.maxCoeff();
   const double spacing = std::sqrt(others.minCoeff());
-  constexpr double cell = 4;  // times the distance of neighbouring nodes (half an edge in cells of second order)
+  // Largest distance in units of the spacing of nodes, which is half an edge in second-order cells.
+  constexpr double cell = 4;
   if (distance > cell * spacing)
     throw InputError(fmt::format(
         "the nearest node where stress is kept is {:.3g} m away: node {} at [{:.6g}, {:.6g}, {:.6g}] m, where nodes "

@@ -22,7 +22,7 @@ struct Placed {
     for (std::size_t k = 0; k < 3; ++k) result.axes[k] = Triple<double>(Vector3(R.col(static_cast<Eigen::Index>(k))));
     return result;
   }
-  /// Largest distance of the core from its middle along a direction.
+  /// Returns the largest distance of the core from its middle along a direction.
   double support(const Vector3& n) const {
     const Vector3 half = shape.kind == ContactShape::Kind::box ? Vector3(shape.half - Vector3::Constant(shape.rounding))
                                                                : Vector3(0, 0, shape.half_length);
@@ -30,8 +30,8 @@ struct Placed {
   }
 };
 
-/// The shortest displacement that separates two convex bodies is the least over all directions: the search is random at
-/// first, then around the best directions. Negative values are distances.
+/// Returns the shortest displacement that separates two convex bodies, which is the least over all directions: the
+/// search is random at first, then around the best directions. Negative values are distances.
 double shortest_way(const Placed& a, const Placed& b, bielle::test::Random& random) {
   const auto way = [&](const Vector3& n) { return a.support(n) + b.support(n) - n.dot(b.x - a.x); };
   double least = 1e300;

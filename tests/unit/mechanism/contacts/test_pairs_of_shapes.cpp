@@ -22,7 +22,7 @@ const ContactShape thick_cylinder = round_shape(Kind::cylinder, 0.3, 0.2, 0.05),
                    brick = box_shape({0.3, 0.2, 0.4}, 0.05), long_capsule = round_shape(Kind::capsule, 0.1, 0.5),
                    stl_brick = surface_shape(box_of_triangles({0.3, 0.2, 0.4}));
 
-/// The point of a core that is nearest to p, in its axes.
+/// Returns the point of a core that is nearest to p, in its axes.
 Vector3 projected(const ContactShape& shape, const Vector3& p) {
   Vector3 q = p;
   if (shape.kind == Kind::surface) return p.cwiseMax(-Vector3(0.3, 0.2, 0.4)).cwiseMin(Vector3(0.3, 0.2, 0.4));
@@ -39,10 +39,10 @@ Vector3 projected(const ContactShape& shape, const Vector3& p) {
   return q;
 }
 
-/// The distance of a point, in the axes of the shape, from its core.
+/// Returns the distance of a point, in the axes of the shape, from its core.
 double from_core(const ContactShape& shape, const Vector3& p) { return (p - projected(shape, p)).norm(); }
 
-/// The distance of two cores, by projections from one to the other in turn, with steps that run ahead.
+/// Returns the distance of two cores, by alternating projections with over-relaxed steps.
 double searched_distance(const ContactShape& a, const ContactShape& b, const Vector3& x, const Matrix3& A) {
   Vector3 p = Vector3::Zero(), before = p;
   double least = 1e300;
@@ -168,7 +168,7 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
         const auto [x, A] = pose(s);
         const Pressed from = pressed(one, placed_at(*b, x, A), law);
         size = std::max(size, from.force.norm());
-        // A short straight way from there, in pieces.
+        // The shape moves a short way from there along a straight line, in pieces.
         const Vector3 along = 0.01 * (k % 2 ? u : v), spin = 0.02 * turn;
         const auto jump = [&](int pieces) {
           double most = 0;

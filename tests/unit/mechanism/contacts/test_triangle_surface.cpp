@@ -11,7 +11,7 @@ using bielle::mechanism::Vector3;
 
 namespace {
 
-/// A wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
+/// Returns a wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
 /// @param seam  distance of the left flank's upper corners from those of the right one
 std::vector<Vector3> wedge(double seam = 0) {
   const double half = 20 * M_PI / 180, x = std::tan(half);
@@ -21,7 +21,7 @@ std::vector<Vector3> wedge(double seam = 0) {
           a + off, left_b,  left_a,  left_a, left_b,  right_b, left_a,  right_b, right_a};
 }
 
-/// The same triangles from the last to the first.
+/// Returns the same triangles from the last to the first.
 std::vector<Vector3> reversed(const std::vector<Vector3>& corners) {
   std::vector<Vector3> result;
   for (std::size_t k = corners.size(); k >= 3; k -= 3)
@@ -37,7 +37,7 @@ TEST_CASE("all around a sharp ridge a point is outside, whatever the order of th
     const TriangleSurface surface(corners);
     CHECK(surface.flipped_edges() == 0);
     CHECK(surface.open_edges() == 6);  // three at either end
-    // From the normal of one flank over the top to that of the other.
+    // The direction changes from the normal of one flank over the top to that of the other.
     for (double angle = -109; angle <= 109; angle += 1) {
       const double a = angle * M_PI / 180;
       const Vector3 point = 0.01 * Vector3(std::sin(a), 0, std::cos(a)) + Vector3(0, 0.3, 0);

@@ -22,7 +22,7 @@ class DrawnModel {
   explicit DrawnModel(const std::string& text, const std::string& name = "model.yaml")
       : file_(mechanism::read_mechanism_text(text, name)), drawing_(mechanism::draw_model(file_.model)) {}
 
-  /// The items of an entry with this shape.
+  /// Returns the items of an entry with this shape.
   std::vector<const DrawnItem*> all(const std::string& entry, const std::string& shape) const {
     std::vector<const DrawnItem*> found;
     for (const DrawnItem& item : drawing_.items())
@@ -36,7 +36,7 @@ class DrawnModel {
     return *found.front();
   }
   bool has(const std::string& entry, const std::string& shape) const { return !all(entry, shape).empty(); }
-  /// The place in inertial components as drawn.
+  /// Returns the place in inertial components as drawn.
   Frame at(const DrawnPlace& place) const { return file_.model.node(place.node).frame * place.frame; }
   Frame at(const DrawnItem& item, std::size_t place = 0) const { return at(item.places.at(place)); }
   const mechanism::MechanismFile& file() const { return file_; }
@@ -46,7 +46,7 @@ class DrawnModel {
   mechanism::Drawing drawing_;
 };
 
-/// A value of an item. @throws std::out_of_range, std::bad_variant_access
+/// Returns a value of an item. @throws std::out_of_range, std::bad_variant_access
 template <class Value>
 const Value& value_of(const DrawnItem& item, const std::string& key) {
   for (const auto& [name, value] : item.values)

@@ -124,7 +124,7 @@ TEST_CASE("held rotations are drawn with the axes in which they are held") {
   CHECK(std::none_of(values.begin(), values.end(), [](const auto& value) { return value.first == "axes"; }));
 }
 
-/// Area and centroid of a polygon by the theorem of Green.
+/// Returns the area and centroid of a polygon by the theorem of Green.
 std::array<double, 3> area_of(const DrawnOutline& outline) {
   double area = 0, y = 0, z = 0;
   for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -223,7 +223,7 @@ TEST_CASE("beams tell how their sections are turned against the axes of their en
   CHECK((node * axes(1) - section).norm() < 1e-14);
 }
 
-/// Volume inside of a closed surface whose triangles are anticlockwise seen from outside.
+/// Returns the volume inside of a closed surface whose triangles are anticlockwise seen from outside.
 double volume_of(const DrawnMesh& mesh) {
   double volume = 0;
   for (const auto& triangle : mesh.triangles) {

@@ -28,7 +28,7 @@ std::string wheels(const std::string& first, const std::string& second) {
          "  pin_b: {type: hinge, nodes: [ground, b], axis: [0, 1, 0]}\n";
 }
 
-/// The distance of a point from the axis of an item, and along it.
+/// Returns the distance of a point from the axis of an item, and along it.
 std::array<double, 2> about_axis(const Frame& frame, const Vector3& point) {
   const Vector3 way = frame.R.transpose() * (point - frame.x);
   return {way.head<2>().norm(), way.z()};
@@ -124,8 +124,8 @@ TEST_CASE("a cam is drawn by its contour about the camshaft, with its roller") {
   }
 }
 
-/// The straight parts of a course between two places, tangent to both pulleys: a course that runs along u touches a
-/// pulley of side +1 at u x z.
+/// Returns the length of the straight parts of a course between two places, tangent to both pulleys: a course that runs
+/// along u touches a pulley of side +1 at u x z.
 double length_of_course(const DrawnModel& drawn, const DrawnItem& course) {
   const std::size_t count = course.places.size();
   const bool closed = value_of<bool>(course, "closed");

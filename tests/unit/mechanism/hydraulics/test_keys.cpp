@@ -14,7 +14,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Two nodes, a hinge between them, and three volumes.
+/// Returns two nodes, a hinge between them, and three volumes.
 std::string circuit(const std::string& entries) {
   return R"yaml(
 nodes:
@@ -53,7 +53,7 @@ void check_equal_lines(const std::string& with_units, const std::string& plain) 
   check_equal(line(with_units), line(plain));
 }
 
-/// Value of a measure at the start.
+/// Returns the value of a measure at the start.
 double measured(const std::string& entries, const std::string& measure, const std::string& actuator = "") {
   const MechanismFile file = read(circuit(entries), actuator);
   Session session(file.model);

@@ -191,7 +191,7 @@ analysis: [{type: dynamic, duration: 0.5, )yaml" + steps +
 
 namespace {
 
-/// A double pendulum: constraints, turns of joints, a push with kinks, and two motions one after the other.
+/// Returns a double pendulum: constraints, turns of joints, a push with kinks, and two motions one after the other.
 std::string pendulum(const std::string& steps, double duration, const std::string& output) {
   return R"yaml(
 gravity: [0, 0, -9.81]

@@ -50,7 +50,7 @@ struct Joints {
   }
 };
 
-/// The two nodes anywhere and turned at will; rates, multipliers of order one.
+/// Returns a state with both nodes anywhere and rotated at random; rates and multipliers are of order one.
 State random_state(const System& system, Random& random) {
   State state = system.start(0);
   for (std::size_t k = 1; k < state.nodes.size(); ++k) {
@@ -64,7 +64,7 @@ State random_state(const System& system, Random& random) {
   return state;
 }
 
-/// The state moved along the local unknowns of a joint without scalars but its multipliers.
+/// Returns the state moved along the local unknowns of a joint without scalars but its multipliers.
 State moved(const LocalState& local, const VectorX& step) {
   State state = local.global();
   const Slots& slots = local.slots();
@@ -161,8 +161,8 @@ TEST_CASE("rotation vectors have their derivatives near zero and near half a tur
     const LocalState local = joints.local(*ball, state);
     for (std::size_t k = 0; k < 3; ++k)
       CHECK_THAT(ball->coordinate(k, local).value, Catch::WithinAbs(psi[static_cast<Eigen::Index>(k)], 1e-7));
-    // Steps stay on this side of half a turn, 2 h in two rotations: rounding of log_so3 there, 1e-8 in the worst case
-    // (see test_rotation_singularities.cpp), over h bounds what differences can tell.
+    // The difference steps stay below half a turn, with 2 h in two rotations. The accuracy of differences is limited by
+    // the rounding of log_so3 there, 1e-8 in the worst case (see test_rotation_singularities.cpp), divided by h.
     const double left = M_PI - angle, h = std::min(0.02, 0.2 * left);
     check_coordinates(joints, *ball, state, std::max(1e-9, 1e-12 / h), h);
   }

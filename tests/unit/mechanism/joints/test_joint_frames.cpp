@@ -10,7 +10,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// Two nodes turned relative to each other, and a hinge with the given keys.
+/// Returns two nodes turned relative to each other, and a hinge with the given keys.
 MechanismFile with_hinge(const std::string& keys) {
   return read_mechanism_text(R"yaml(
 nodes:

@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A model of three nodes with the entry `it` of some section.
+/// Returns a model of three nodes with the entry `it` of some section.
 MechanismFile with_entry(const std::string& section, const std::string& entry) {
   const TemporaryFolder folder;
   folder.file("round.csv", "0,1\n1,1.05\n2.1,1\n3.1,0.95\n4.2,1\n5.2,1.02\n");
@@ -38,7 +38,7 @@ joints:
       folder.file("model.yaml", text + (section == "joints" ? "" : section + ":\n") + "  it: {" + entry + "}\n"));
 }
 
-/// Everything that the components of `it` tell of themselves, with the frames and starts of a joint.
+/// Returns the descriptions of all components of `it`, with the frames and starts of a joint.
 std::string description_of(const std::string& section, const std::string& entry) {
   const MechanismFile file = with_entry(section, entry);
   const System system(file.model);

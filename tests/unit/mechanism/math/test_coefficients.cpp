@@ -31,7 +31,7 @@ void evaluate(double phi_squared, double (&value)[count]) {
 
 using Long = long double;
 
-/// sum_k coefficient(k) x^k, from the smallest term.
+/// Returns sum_k coefficient(k) x^k, from the smallest term.
 template <class Coefficient>
 Long power_series(Long x, int terms, const Coefficient& coefficient) {
   Long sum = 0;
@@ -92,7 +92,7 @@ struct Worst {
   double error[count] = {}, phi[count] = {};
 };
 
-/// Worst relative errors on a fine grid of angles in [from, to], each with its neighbourhood.
+/// Returns the worst relative errors on a fine grid of angles in [from, to], each with its neighbourhood.
 Worst scan(double from, double to, int points) {
   Worst worst;
   for (int k = 0; k <= points; ++k) {

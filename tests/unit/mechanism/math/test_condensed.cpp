@@ -25,8 +25,8 @@ std::vector<int> numbers(int begin, int count) {
   return result;
 }
 
-/// Two dense blocks on common unknowns, which constraints hold: zeros on the diagonal. The second block's unknowns come
-/// last. None of it symmetric.
+/// Returns two dense blocks on common unknowns, which constraints hold: zeros on the diagonal. The second block's
+/// unknowns come last. None of it symmetric.
 MatrixX two_blocks(Random& random) {
   MatrixX A = MatrixX::Zero(size, size);
   const auto couple = [&](int begin) {

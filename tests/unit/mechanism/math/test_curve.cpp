@@ -12,7 +12,7 @@ using bielle::mechanism::Vector3;
 
 namespace {
 
-/// n points of a circle of radius 2 about (0, 1, 0), in a plane inclined to the axes.
+/// Returns n points of a circle of radius 2 about (0, 1, 0), in a plane inclined to the axes.
 MatrixX circle(int n, double turn) {
   MatrixX points(n, 3);
   const Vector3 x = Vector3(1, 0, 1).normalized(), y = Vector3::UnitY();

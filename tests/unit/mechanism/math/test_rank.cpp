@@ -54,7 +54,7 @@ struct Graph {
   }
 };
 
-/// Two rails of n edges, joined by n + 1 rungs.
+/// Returns two rails of n edges, joined by n + 1 rungs.
 Graph ladder(int n) {
   Graph graph;
   graph.nodes = 2 * n + 2;
@@ -71,7 +71,7 @@ void shuffle(Graph& graph, Random& random) {
   }
 }
 
-/// By elimination of dense columns one after another.
+/// Finds dependent columns by elimination of dense columns one after another.
 std::vector<int> dense_dependent(const MatrixX& A) {
   MatrixX basis(A.rows(), 0);
   std::vector<int> result;

@@ -52,7 +52,7 @@ bool is_half_turn(const Matrix3& R) { return quaternion_of(R)[0] < 4e-16; }
 template <class P>
 constexpr bool is_rodrigues = std::is_same_v<P, RodriguesVector>;
 
-/// The parameters, or nothing where the parametrisation has none.
+/// Returns the parameters, or nothing where the parametrisation has none.
 template <class P>
 std::vector<typename P::Parameters> parameters_of(const Matrix3& R) {
   if (is_rodrigues<P> && is_half_turn(R)) {
@@ -62,7 +62,7 @@ std::vector<typename P::Parameters> parameters_of(const Matrix3& R) {
   return {P::parameters(R)};
 }
 
-/// Random parameters of moderate size, also beyond the principal domain, where T is well away from singular.
+/// Returns random parameters of moderate size, also beyond the principal domain, where T is well away from singular.
 template <class P>
 typename P::Parameters regular(Random& random) {
   for (;;) {
@@ -72,19 +72,19 @@ typename P::Parameters regular(Random& random) {
   }
 }
 
-/// Size of the numbers that T and T^-1 bring into a product.
+/// Returns the size of the numbers that T and T^-1 bring into a product.
 template <class P>
 double condition(const typename P::Parameters& p) {
   return 1 + P::tangent(p).cwiseAbs().maxCoeff() * P::tangent_inverse(p).cwiseAbs().maxCoeff();
 }
 
-/// A fifth of the length on which the rotation varies: 1, but where Rodrigues vectors are long.
+/// Returns a fifth of the length on which the rotation varies: 1, but where Rodrigues vectors are long.
 template <class P>
 double scale(const typename P::Parameters& p) {
   return 0.2 * (is_rodrigues<P> ? std::max(1.0, p.norm()) : 1.0);
 }
 
-/// Whether T^-1 exists; where it is refused, T must be singular, or nearly.
+/// Returns whether T^-1 exists; where it is refused, T must be singular, or nearly.
 template <class P>
 bool has_inverse(const typename P::Parameters& p) {
   try {

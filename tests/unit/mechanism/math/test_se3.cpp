@@ -160,7 +160,7 @@ TEST_CASE("derivatives of T6 and its inverse are those of finite differences") {
     const Matrix6 D = tangent_se3_derivative(d, e), Dinv = tangent_se3_inverse_derivative(d, e);
     CHECK(error(D, derivative([&](double s) { return tangent_se3(d + s * e); })) < difference);
     CHECK(error(Dinv, derivative([&](double s) { return tangent_se3_inverse(d + s * e); })) < difference);
-    // The gradient by d at fixed w is the same derivative seen the other way.
+    // The gradient by d at fixed w contains the same derivatives in another order.
     CHECK(error(Dinv * f, tangent_se3_inverse_gradient(d, f) * e) < 1e-13);
     // Compatibility of velocities and variations (Maurer-Cartan): D[e] f - D[f] e = ad of the two body velocities.
     const Vector6 left = D * f - tangent_se3_derivative(d, f) * e;

@@ -19,7 +19,7 @@ using Sparse = bielle::test::SparseValues;
 
 namespace {
 
-/// [M B^T; B 0] with a random positive M and full-rank B: zeros on the diagonal.
+/// Returns [M B^T; B 0] with a random positive M and full-rank B: zeros on the diagonal.
 MatrixX saddle(Random& random, int n, int m) {
   MatrixX A = MatrixX::Zero(n + m, n + m);
   A.topLeftCorner(n, n) = random.positive_matrix(n);
@@ -148,7 +148,7 @@ TEST_CASE("no equations have an empty solution") {
 
 namespace {
 
-/// The cost of factors by one of KLU's orderings alone.
+/// Returns the cost of factors by one of KLU's orderings alone.
 FactorCost cost_by(const Sparse& sparse, int ordering) {
   const SparsePattern& pattern = sparse.pattern;
   int *start = const_cast<int*>(pattern.column_start().data()), *row = const_cast<int*>(pattern.row().data());
@@ -179,7 +179,7 @@ FactorCost cost_of(const Sparse& sparse) {
   return lu.cost();
 }
 
-/// The stiffness of a square net of n by n springs: pivots stay on the diagonal.
+/// Returns the stiffness of a square net of n by n springs: pivots stay on the diagonal.
 MatrixX net(int n) {
   MatrixX A = MatrixX::Identity(n * n, n * n);
   const auto spring = [&](int a, int b) {
@@ -195,8 +195,9 @@ MatrixX net(int n) {
   return A;
 }
 
-/// A ladder of four-bars: an upper bar, a lower one and a rung for each loop, of six unknowns each, all upper hinges
-/// first; the last hinge of each loop has two rows, since three repeat others. Rows of constraints have no diagonal.
+/// Returns a ladder of four-bars: an upper bar, a lower one and a rung for each loop, of six unknowns each, all upper
+/// hinges first; the last hinge of each loop has two rows, since three repeat others. Rows of constraints have no
+/// diagonal.
 MatrixX four_bars(Random& random, int loops) {
   const int dofs = 18 * loops, rows = 17 * loops;
   MatrixX A = MatrixX::Zero(dofs + rows, dofs + rows);
@@ -233,7 +234,7 @@ TEST_CASE("of two orderings the one that makes fewer operations of the matrix is
 }
 
 TEST_CASE("minimum degree is left where pivots leave the diagonal later") {
-  // First the diagonal is large, and minimum degree is taken; then the constraints have none.
+  // At first the diagonal is large, and minimum degree is chosen. Later the constraints have no diagonal.
   Random random(5);
   constexpr int loops = 24, size = 35 * loops;
   MatrixX A = four_bars(random, loops);
@@ -245,7 +246,7 @@ TEST_CASE("minimum degree is left where pivots leave the diagonal later") {
   REQUIRE(lu.factor(before.values, scale) == FactorStatus::good);
   REQUIRE(lu.cost().operations == cost_by(before, 0).operations);
   REQUIRE(lu.factor(after.values, scale) == FactorStatus::good);
-  // Twice the entries that column minimum degree needed then, at most.
+  // The bound is twice the number of entries that column minimum degree needed before.
   CHECK(lu.cost().entries <= 2 * cost_by(before, 1).entries + 2 * size);
   VectorX x = b;
   lu.solve(x);

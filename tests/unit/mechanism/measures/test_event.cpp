@@ -22,7 +22,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A stone that falls from 2 m: z = 2 - 5 t^2, exactly so for the scheme.
+/// Returns a stone that falls from 2 m: z = 2 - 5 t^2, exactly so for the scheme.
 std::string stone(const std::string& events) {
   return R"yaml(
 gravity: [0, 0, -10]

@@ -9,7 +9,7 @@ using bielle::test::message_of;
 
 namespace {
 
-/// A torque's formula, and measures besides.
+/// Returns a torque's formula, and measures besides.
 std::string model(const std::string& torque, const std::string& measures = "") {
   return R"yaml(
 nodes: {pin: {position: [1, 0, 0]}, "end plate": {position: [2, 0, 0]}}

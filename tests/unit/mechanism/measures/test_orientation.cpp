@@ -20,7 +20,7 @@ using Catch::Contains;
 
 namespace test_orientation {
 
-/// A free body with three different moments of inertia, which tumbles. @param more  of the node
+/// Returns a free body with three different moments of inertia, which tumbles. @param more  of the node
 std::string tumbling(const std::string& more) {
   return "nodes: {body: {position: [0, 0, 0], angular_velocity: [0.3, 4, 0.2], " + more + R"yaml(}}
 elements: {body: {type: rigid_body, node: body, mass: 1, inertia: [1, 2, 2.7]}}

@@ -23,7 +23,8 @@ namespace test_turn {
 
 constexpr double spin = 7;  // [rad/s]
 
-/// A free sphere, drawn in some orientation, which turns at a constant rate about an axis fixed in space and on it.
+/// Returns a free sphere, drawn in some orientation, which turns at a constant rate about an axis fixed in space and on
+/// it.
 std::string sphere(const std::string& more = "") {
   return R"yaml(
 nodes:
@@ -53,7 +54,7 @@ TEST_CASE("a turn at a constant rate is counted, also if a step is longer than h
   }
 }
 
-/// A node that is carried by three driven hinges, about z, x and z as drawn, so that R = Rz(a) Rx(b) Rz(c).
+/// Returns a node that is carried by three driven hinges, about z, x and z as drawn, so that R = Rz(a) Rx(b) Rz(c).
 /// @param upright  their z axis as drawn, in their own axes
 std::string gimbals(const std::string& drawn, const Vector3& upright) {
   return "nodes:\n  outer: {" + drawn + "}\n  inner: {" + drawn + "}\n  rotor: {" + drawn + R"yaml(}

@@ -48,7 +48,7 @@ void tell(int pipe) {
   if (write(pipe, "x", 1) != 1) _exit(1);
 }
 
-/// The numbers of an entry, by the place that each layout gives them.
+/// Returns the numbers of an entry, by the place that each layout gives them.
 std::vector<double> read(const Hdf5File& file, const std::string& named, const std::string& stacked,
                          std::size_t number) {
   if (file.read_text_attribute("/", "layout") == "named") return file.read(named);
@@ -62,7 +62,7 @@ std::vector<double> read(const Hdf5File& file, const std::string& named, const s
   return values;
 }
 
-/// Every row that /time counts must be whole: sample row i has time 0.5 i.
+/// Checks that every row that /time counts is whole: sample row i has time 0.5 i.
 std::size_t check_rows(const std::string& path) {
   const Hdf5File file = Hdf5File::open(path);
   REQUIRE(file.read_integer_attribute("/", "complete") == 0);

@@ -68,7 +68,7 @@ void run(const std::string& output, const std::string& path, const std::string& 
   run_analyses(read(output), path, progress, restart);
 }
 
-/// The values in the stacked file for a name of the layout by names: "joints/elbow/rate".
+/// Returns the values in the stacked file for a name of the layout by names: "joints/elbow/rate".
 std::vector<double> by_name(const Hdf5File& file, const ResultsKinds& kinds, const ResultsEntry& entry,
                             const ResultsField& field) {
   const ResultsKind& kind = kinds.kinds()[entry.kind];

@@ -37,7 +37,7 @@ inline mechanism::DynamicsOptions swing(double duration, double tolerance = 0) {
   return options;
 }
 
-/// All readable values, one after the other.
+/// Returns all readable values, one after the other.
 inline std::vector<double> all_numbers(const mechanism::Session& session) {
   std::vector<double> all = session.read("time");
   for (const mechanism::ResultsColumn& column : session.datasets()) {

@@ -17,7 +17,7 @@ Energy energy(double kinetic, double input = 0, double dissipation = 0) {
   return result;
 }
 
-/// The relative error as in a summary.
+/// Returns the relative error as in a summary.
 double relative_error(const EnergyBalance& energy_balance) {
   return energy_balance.largest_error() / std::max(energy_balance.largest(), 0.1 * energy_balance.largest_turnover());
 }

@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-/// 2 kg that a drive moves along a slide.
+/// Returns the warnings about a mass of 2 kg that a drive moves along a slide.
 std::vector<std::string> warnings_of(const std::string& displacement) {
   const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {b: {position: [0, 0, 0]}}

@@ -65,7 +65,7 @@ joints:
   wall: {type: hinge, nodes: [c, ground], axis: [0.2, 0.3, 1]}
 )yaml";
 
-/// A state away from the reference, with rates and multipliers of order one. Fixed seed.
+/// Returns a state away from the reference, with rates and multipliers of order one. Fixed seed.
 State random_state(const System& system, State& base, VectorX& dq, VectorX& v, VectorX& a) {
   std::srand(7);
   base = system.start(0.7);

@@ -36,7 +36,7 @@ class Body final : public Component {
   bool claims_blocks_, asks_dense_;
 };
 
-/// A free node (1), one that is held in a direction (2) and one that the first carries (3).
+/// Returns a free node (1), one that is held in a direction (2) and one that the first carries (3).
 Model three_nodes() {
   Model model;
   Node node;

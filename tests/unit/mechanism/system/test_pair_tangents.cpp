@@ -16,7 +16,7 @@ using bielle::test::Random;
 
 namespace {
 
-/// Balls of 0.05 m in a group.
+/// Returns balls of 0.05 m in a group.
 /// @param nodes    text of the nodes b0, b1, .. on which they stand
 /// @param carried  number of a ball that the last one carries; -1: none
 std::string group_of_balls(const std::vector<std::string>& nodes, int carried = -1) {
@@ -44,8 +44,8 @@ MatrixX tangent_at(const System& system, const Environment& environment, const S
   return J;
 }
 
-/// The same by central differences of the residual, along increments dq of positions from the base, of rates and of
-/// accelerations.
+/// Returns the same by central differences of the residual, along increments dq of positions from the base, of rates
+/// and of accelerations.
 MatrixX differences_at(const System& system, const Environment& environment, const State& base, const VectorX& dq,
                        const VectorX& v, const VectorX& a) {
   constexpr double e = 1e-6;
@@ -80,7 +80,7 @@ class Coupling final : public Component {
   std::vector<int> nodes_;
 };
 
-/// Positions of all nodes at the end of a motion.
+/// Returns the positions of all nodes at the end of a motion.
 VectorX positions_after(const std::string& text, bool all_coupled, double duration, ConstraintForm form,
                         double tolerance, long& entries) {
   MechanismFile file = read_mechanism_text(text, "balls.yaml");

@@ -60,7 +60,8 @@ drives:
   motor: {joint: pivot, rate: "0.4*sin(2*t)"}
 )yaml";
 
-/// With a mixer of everything, one that refers to the first, and a gear. (A drive refers to its joint as well.)
+/// A model with a component that refers to all others, one that refers to the first, and a gear. (A drive refers to its
+/// joint as well.)
 struct Mixed {
   MechanismFile file;
   std::unique_ptr<System> system;
@@ -188,7 +189,7 @@ TEST_CASE("with references of all kinds on nodes of all kinds the tangent is the
       CHECK(distance(tangent_of(system, environment, point, {0, 0, 1, 0, 0}), d.M) < accurate);
       const MatrixX all = d.K + 3 * d.C + 7 * d.M;
       CHECK(distance(tangent_of(system, environment, point, {1, 3, 7, 3, 1}), all) < accurate);
-      // The mixed terms exist: each part of the tangent for each kind of unknown of the others.
+      // The mixed terms are not zero: each part of the tangent, for each kind of unknown of other components.
       const int row = 0, n = system.dofs(), strut = n + system.slots_of(*mixed.strut).first_order_begin,
                 scalar = system.kinematics().unknowns() + system.slots_of(*mixed.scalar).amplitude_begin;
       for (const int column : {strut, scalar}) {
@@ -228,7 +229,7 @@ TEST_CASE("constraints of others and derivatives of forces by multipliers come e
     const MatrixX alone = dense(system, values);
     CHECK(alone.topLeftCorner(n, n).isZero(0));
     CHECK(distance(alone.topRightCorner(n, m), alone.bottomLeftCorner(m, n).transpose()) < 1e-14);
-    // No other terms: derivatives by multipliers less those of the forces.
+    // There are no other terms than the derivatives by multipliers less those of the forces.
     CHECK(distance(alone.topRightCorner(n, m), by_multipliers - forces.topRightCorner(n, m)) < accurate);
     // With `reactions` they count in full with any stiffness.
     TangentWeights weights{0, 0, 1, 1, 1, true};

@@ -24,7 +24,7 @@ State moved(const System& system, double size) {
   return state;
 }
 
-/// All results of a system, one after the other.
+/// Returns all results of a system, one after the other.
 std::vector<double> everything(const System& system, const Environment& environment, State state) {
   std::vector<double> all, values;
   const auto take = [&](const auto& vector) { all.insert(all.end(), vector.data(), vector.data() + vector.size()); };

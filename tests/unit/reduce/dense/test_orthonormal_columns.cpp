@@ -14,7 +14,7 @@ namespace test_orthonormal_columns {
 using namespace bielle;
 using Complex = std::complex<double>;
 
-/// Numbers without a relation to each other.
+/// Returns numbers without a relation to each other.
 Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index columns) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index k) {
     const auto along = static_cast<double>(i), across = static_cast<double>(k);
@@ -29,7 +29,7 @@ Eigen::MatrixXcd complex_numbers(Eigen::Index rows, Eigen::Index columns) {
   return result;
 }
 
-/// Largest entry of Q^H Q - I, and of the part of A normal to Q.
+/// Returns the largest entry of Q^H Q - I, and of the part of A normal to Q.
 template <class Matrix>
 double worst(const Matrix& A, const Matrix& Q) {
   const Matrix gram = Q.adjoint().lazyProduct(Q);

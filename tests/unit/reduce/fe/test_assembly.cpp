@@ -37,7 +37,7 @@ Material wood() { return Material::orthotropic({12e9, 1e9, 0.8e9}, {0.4, 0.35, 0
 
 double largest_entry(const SymmetricMatrix& k) { return *std::max_element(k.values.begin(), k.values.end()); }
 
-/// Nodes that are not on the surface of the unit box.
+/// Returns the nodes that are not on the surface of the unit box.
 std::vector<int> interior(const Mesh& flat) {
   std::vector<int> result;
   for (Eigen::Index a = 0; a < flat.point_count(); ++a) {

@@ -97,7 +97,7 @@ TEST_CASE("Cells of all types have the mass, centre, inertia and surface of the 
   CHECK((found.centre - extent / 2).norm() < 1e-13);
   const Eigen::Array3d squares = extent.array().square();
   CHECK((found.inertia.diagonal().array() - found.mass / 12 * (squares.sum() - squares)).abs().maxCoeff() < 1e-12);
-  // The mass matrix contains the same.
+  // The mass matrix contains the same mass.
   const RowMatrix ones = RowMatrix::Ones(mesh.point_count(), 1);
   CHECK(model.mass.multiply(ones, 1).sum() == Approx(found.mass).epsilon(1e-13));
   for (const auto& [name, area] : {std::pair<std::string, double>{"x1", extent.y() * extent.z()},
@@ -135,7 +135,7 @@ TEST_CASE("Cells of all types pass the patch test: constant strain in distorted 
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a)
     CHECK((stress.middleRows<6>(6 * a) - expected).norm() < 1e-10 * expected.norm());
   CHECK((mean_strain(model.solid, u) - strain).norm() < 1e-12 * strain.norm());
-  // Twice the energy, and no error of a constant stress.
+  // The product is twice the energy, and a constant stress has no error.
   CHECK((u.transpose() * forces)(0, 0) == Approx(extent.prod() * strain.dot(expected)).epsilon(1e-12));
   CHECK(estimate_mesh_error(model.solid, u).relative(0) < 1e-6);
 }

@@ -18,7 +18,7 @@ namespace {
 const std::map<std::string, Material> metals{{"steel", Material::isotropic(210e9, 0.3, 7800)},
                                              {"copper", Material::isotropic(120e9, 0.34, 8900)}};
 
-/// A box whose left half is the group "left".
+/// Returns a box whose left half is the group "left".
 Mesh two_halves() {
   Mesh mesh = test::box_mesh({{2, 1, 1}, {2, 1, 1}});
   Group left{3, {{CellType::tet10, {}}}, {}};

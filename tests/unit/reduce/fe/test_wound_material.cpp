@@ -20,7 +20,7 @@ namespace test_wound_material {
 
 constexpr double radial = 1e9, around = 9e9, along = 4e9;
 
-/// Wound around a line, with moduli along [radial, around, along] and no contraction across.
+/// Returns a material that is wound around a line, with moduli along [radial, around, along] and no contraction across.
 Material wound(const Vector3d& point, const Vector3d& axis) {
   Material material = Material::orthotropic({radial, around, along}, Vector3d::Zero(), Vector3d(1e9, 1e9, 1e9), 1500);
   material.winding_point = point;
@@ -28,7 +28,7 @@ Material wound(const Vector3d& point, const Vector3d& axis) {
   return material;
 }
 
-/// A quarter of a tube around z with radii 1 and 2 and height 1, then moved.
+/// Returns a quarter of a tube around z with radii 1 and 2 and height 1, then moved.
 Mesh quarter(CellType type, int n, const Eigen::Isometry3d& moved = Eigen::Isometry3d::Identity()) {
   return test::cell_box(type, {1, 1, 1}, {n, n, 1}, {}, [&](const Vector3d& x) {
     const double r = 1 + x.x(), angle = std::numbers::pi / 2 * x.y();
@@ -36,7 +36,7 @@ Mesh quarter(CellType type, int n, const Eigen::Isometry3d& moved = Eigen::Isome
   });
 }
 
-/// The exact displacement of a tube of this material under pressure: r^k and r^-k, k^2 = E_around / E_radial
+/// Returns the exact displacement of a tube of this material under pressure: r^k and r^-k, k^2 = E_around / E_radial
 /// (S. G. Lekhnitskii, Theory of Elasticity of an Anisotropic Body, cylindrical anisotropy).
 double displacement(double r) { return 1e-3 * (std::pow(r, 3) + std::pow(r, -3)); }
 
@@ -50,7 +50,7 @@ bool on_surface(const Vector3d& x) {
   return r < 1 + near || r > 2 - near || x.x() < near || x.y() < near || x.z() < near || x.z() > 1 - near;
 }
 
-/// Displacements of a quarter whose surface is moved as the exact solution moves it.
+/// Returns the displacements of a quarter whose surface is moved as the exact solution moves it.
 RowMatrix solution(const test::SolidModel& model) {
   RowMatrix u = test::field(model.mesh, [](const Vector3d& x) { return on_surface(x) ? exact(x) : Vector3d::Zero(); });
   return u + model.solve(-model.stiffness.multiply(u));

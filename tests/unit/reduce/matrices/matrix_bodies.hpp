@@ -49,7 +49,7 @@ inline void turn_nodes(reduce::MatrixSet& set) {
   set.mass = sparse(turn.transpose() * set.mass * turn);
 }
 
-/// Numbers of the nodes of a group of a mesh, as in `matrices_of`.
+/// Returns the numbers of the nodes of a group of a mesh, as in `matrices_of`.
 inline std::vector<std::int64_t> node_numbers(const reduce::Mesh& mesh, const std::string& group) {
   std::vector<std::int64_t> result;
   for (const int node : mesh.groups.at(group).nodes) result.push_back(node + 1);
@@ -71,9 +71,9 @@ inline Superelement reduced(reduce::MatrixSet set, const reduce::MatrixOptions& 
   return reduce::reduce_matrices(set, options, quiet);
 }
 
-/// A straight Euler-Bernoulli beam along x with its consistent mass matrix (J. S. Przemieniecki, Theory of Matrix
-/// Structural Analysis, 1968, chapter 11, without rotary inertia of bending): length 2 m, EA = 1e7 N, GJ = 1e4 N m^2,
-/// EI = 2e4 (about y), 3e4 (about z) N m^2, 3 kg/m, 1e-4 kg m of torsion.
+/// Returns a straight Euler-Bernoulli beam along x with its consistent mass matrix (J. S. Przemieniecki, Theory of
+/// Matrix Structural Analysis, 1968, chapter 11, without rotary inertia of bending): length 2 m, EA = 1e7 N, GJ = 1e4 N
+/// m^2, EI = 2e4 (about y), 3e4 (about z) N m^2, 3 kg/m, 1e-4 kg m of torsion.
 inline reduce::MatrixSet beam_set(int elements = 1) {
   const double L = 2.0 / elements, EA = 1e7, GJ = 1e4, rho = 3, polar = 1e-4;
   const int nodes = elements + 1;

@@ -11,12 +11,12 @@ using namespace bielle::reduce;
 
 namespace {
 
-/// S_kl U of rigid motions about the centre: the first moments that momentum and centrifugal forces consist of.
+/// Returns S_kl U of rigid motions about the centre: the first moments that momentum and centrifugal forces consist of.
 Eigen::MatrixXd moments(const Superelement& body, std::size_t component) {
   return body.inertia_components[component] * rigid_coordinates(body, body.centre);
 }
 
-/// Kinetic energy per square of the rate of a rigid spin about an axis, from the inertia components alone.
+/// Returns the kinetic energy per square of the rate of a rigid spin about an axis, from the inertia components alone.
 double spin_energy(const Superelement& body, const Eigen::Vector3d& axis) {
   Eigen::VectorXd turn = rigid_coordinates(body, body.centre).rightCols(3) * axis;
   return 0.5 * turn.dot((body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2]) * turn);

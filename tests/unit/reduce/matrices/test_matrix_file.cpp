@@ -16,7 +16,7 @@ namespace {
 
 using Integers = std::vector<std::int64_t>;
 
-/// A spring of 4 N/m between two masses of 2 kg along x; the caller may change the file before it is closed.
+/// Returns a spring of 4 N/m between two masses of 2 kg along x; the caller may change the file before it is closed.
 std::string spring_file(const std::string& path, const std::function<void(Hdf5File&)>& change = {}) {
   Hdf5File file = Hdf5File::create(path);
   file.write_attribute("/", "format", "bielle matrices");

@@ -49,7 +49,7 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-/// Signs of the modes of `body` against those of another, from the displacements; 1 for the interfaces.
+/// Returns the signs of the modes of `body` against those of another, from the displacements; 1 for the interfaces.
 Eigen::VectorXd signs(const Superelement& body, const Superelement& other) {
   Eigen::VectorXd result = Eigen::VectorXd::Ones(body.size());
   for (Eigen::Index k = body.interface_directions(); k < body.size(); ++k)

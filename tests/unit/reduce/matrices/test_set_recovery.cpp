@@ -14,7 +14,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A reduced body of a mesh with its stress at all nodes, and a quantity of three of its rows.
+/// Returns a reduced body of a mesh with its stress at all nodes, and a quantity of three of its rows.
 Superelement stressed_body() {
   ReductionOptions options = test::steel_body(Tie::average, Tie::average, 6);
   options.stress_recovery = RecoveryExtent::all;
@@ -23,7 +23,7 @@ Superelement stressed_body() {
   return body;
 }
 
-/// Static stress of a body whose first interface is held, under a unit force along z on the second.
+/// Returns the static stress of a body whose first interface is held, under a unit force along z on the second.
 Eigen::VectorXd stress_under_load(const Superelement& body) {
   const Eigen::Index free = body.size() - 6;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(free);

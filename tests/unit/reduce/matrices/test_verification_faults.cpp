@@ -16,7 +16,7 @@ MatrixSet declared(MatrixSet set) {
   return set;
 }
 
-/// A beam of ten elements, nodes 10 to 110, on a frame: x along the body.
+/// Returns a beam of ten elements, nodes 10 to 110, on a frame: x along the body.
 MatrixSet sound_beam() { return declared(test::beam_set(10)); }
 
 void exchange_positions(MatrixSet& set, Eigen::Index a, Eigen::Index b) {

@@ -23,7 +23,7 @@ using Catch::Contains;
 
 namespace {
 
-/// (beta L)^2 / (2 pi) sqrt(EI / (m L^4)) [Hz] with EI of bending about y of `beam_set`.
+/// Returns (beta L)^2 / (2 pi) sqrt(EI / (m L^4)) [Hz] with EI of bending about y of `beam_set`.
 double beam_frequency(double beta_L) { return beta_L * beta_L / (2 * M_PI) * std::sqrt(2e4 / (3 * 16)); }
 
 const Finding& finding_of(const VerifiedSubject& subject, const std::string& name) {
@@ -103,7 +103,7 @@ TEST_CASE("Different bodies are told apart") {
 
 namespace {
 
-/// Lines of a comparison that list a mode of the first body: "    1    ..".
+/// Returns the lines of a comparison that list a mode of the first body: "    1    ..".
 std::vector<std::string> mode_lines(const VerifiedSubject& found) {
   std::vector<std::string> lines;
   for (const std::string& line : found.lines)
@@ -113,7 +113,7 @@ std::vector<std::string> mode_lines(const VerifiedSubject& found) {
   return lines;
 }
 
-/// A beam as a superelement between its ends, whose points on the axis have displacements alone.
+/// Returns a beam as a superelement between its ends, whose points on the axis have displacements alone.
 MatrixSet reduced_beam(double stiffness, double mass) {
   MatrixSet set = test::beam_set(6);
   set.stiffness *= stiffness;

@@ -8,7 +8,7 @@
 
 namespace bielle::test {
 
-/// Faults of all checks that failed, the worst first, one on each line.
+/// Returns the faults of all checks that failed, the worst first, one on each line.
 inline std::string faults_of(const reduce::Verification& verification) {
   std::string text;
   for (const reduce::Finding& finding : verification.failures())
@@ -18,7 +18,7 @@ inline std::string faults_of(const reduce::Verification& verification) {
 
 inline std::string faults_of(const reduce::MatrixSet& set) { return faults_of(reduce::verify(set)); }
 
-/// Number of a check; not a number if it was not made.
+/// Returns the number of a check; not a number if it was not made.
 inline double value_of(const reduce::Verification& verification, const std::string& name) {
   for (const reduce::VerifiedSubject& subject : verification.subjects)
     for (const reduce::Finding& finding : subject.findings)

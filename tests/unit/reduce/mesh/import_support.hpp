@@ -9,16 +9,16 @@
 
 namespace bielle::test {
 
-/// A request without a body file.
+/// Returns a request without a body file.
 reduce::MeshRequest request(const std::string& path);
 
 /// import_mesh without output.
 reduce::Mesh import(const reduce::MeshRequest& request);
 
-/// The InputError of import_mesh.
+/// Returns the InputError of import_mesh.
 std::string import_message(const reduce::MeshRequest& request);
 
-/// A selection by one selector.
+/// Returns a selection by one selector.
 reduce::SurfaceSelection selection(const std::string& group, const reduce::SurfaceSelector& selector);
 
 /// gmsh's format 2.2 of points (rows "x y z") and elements (rows "type number-of-tags tags.. nodes.."), numbered
@@ -27,16 +27,16 @@ reduce::SurfaceSelection selection(const std::string& group, const reduce::Surfa
 std::string msh(const std::vector<std::string>& points, const std::vector<std::string>& elements,
                 const std::vector<std::string>& names = {});
 
-/// The same text of a mesh, each of its groups a physical one.
+/// Returns the same text of a mesh, each of its groups a physical one.
 std::string as_msh(const reduce::Mesh& mesh);
 
 /// Lets gmsh mesh a geometry and write it in the format of `target`'s ending (a geometry's ending: unmeshed).
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order);
 
-/// Area vector of a surface group of triangles with straight edges: outward normals weighted by area [m^2].
+/// Returns the area vector of a surface group of triangles with straight edges: outward normals weighted by area [m^2].
 Eigen::Vector3d area_vector(const reduce::Mesh& mesh, const std::string& group);
 
-/// Area of a surface group by its triangles' corners [m^2].
+/// Returns the area of a surface group by its triangles' corners [m^2].
 double corner_area(const reduce::Mesh& mesh, const std::string& group);
 
 }  // namespace bielle::test

@@ -124,7 +124,7 @@ TEST_CASE("parts that hang together by an edge or a node only give a warning") {
 }
 
 TEST_CASE("wedges of order 1 give a warning, which tells single layers") {
-  // Two wedges on one another, and one next to the upper one.
+  // There are two wedges on top of each other, and one next to the upper one.
   Mesh mesh;
   mesh.points.resize(3, 11);
   for (int layer = 0; layer < 3; ++layer) {

@@ -48,7 +48,7 @@ TEST_CASE("a box is cut where faces of its cells lie in the planes") {
   }
   CHECK(cut.cuts[1].pieces == std::array<int, 2>{1, 2});
   CHECK(cut.cuts[1].group == "pieces.cut_2");
-  // Surfaces reach into the pieces that they bound, and volumes into all.
+  // Groups of surfaces are in the pieces that they bound, and groups of volumes in all pieces.
   CHECK(cut.pieces[0].mesh.groups.contains("x0"));
   CHECK_FALSE(cut.pieces[1].mesh.groups.contains("x0"));
   CHECK_FALSE(cut.pieces[1].mesh.groups.contains("x1"));

@@ -9,7 +9,7 @@ namespace bielle::test {
 
 inline reduce::Material steel() { return reduce::Material::isotropic(210e9, 0.3, 7800); }
 
-/// A mesh all of steel.
+/// Returns a mesh all of steel.
 inline reduce::Solid steel_solid(const reduce::Mesh& mesh) {
   return make_solid(mesh, {{"steel", steel()}}, {{"all", "steel"}});
 }
@@ -23,7 +23,7 @@ inline reduce::InterfaceRequest interface(const std::string& name, const std::st
   return request;
 }
 
-/// A steel body with interfaces "a" on x0 and "b" on x1.
+/// Returns a steel body with interfaces "a" on x0 and "b" on x1.
 inline reduce::ReductionOptions steel_body(reduce::Tie a, reduce::Tie b, int modes = 0) {
   reduce::ReductionOptions options;
   options.name = "box";
@@ -34,7 +34,7 @@ inline reduce::ReductionOptions steel_body(reduce::Tie a, reduce::Tie b, int mod
   return options;
 }
 
-/// A point that follows the mean of a surface.
+/// Returns a point that follows the mean of a surface.
 inline reduce::PointRequest point_on(const std::string& name, const std::string& group) {
   reduce::PointRequest request;
   request.name = name;
@@ -43,14 +43,14 @@ inline reduce::PointRequest point_on(const std::string& name, const std::string&
   return request;
 }
 
-/// A point at a place in the mesh.
+/// Returns a point at a place in the mesh.
 inline reduce::PointRequest point_at(const std::string& name, const Eigen::Vector3d& place) {
   reduce::PointRequest request = point_on(name, "");
   request.position = place;
   return request;
 }
 
-/// A short twisted block: no symmetry hides an error, and the numbers are well conditioned.
+/// Returns a short twisted block: no symmetry hides an error, and the numbers are well conditioned.
 inline reduce::Mesh twisted_block() {
   return box_mesh({{0.4, 0.1, 0.15}, {5, 2, 2}}, [](const Eigen::Vector3d& x) {
     const double angle = 1.5 * x.x();

@@ -39,7 +39,7 @@ MassRequest mass_at(const Vector3d& place, double mass) {
 
 const Matrix3d skew_inertia = (Matrix3d() << 0.3, 0.02, -0.05, 0.02, 0.4, 0.01, -0.05, 0.01, 0.25).finished();
 
-/// A bar of length 1 and Poisson's ratio 0, clamped at x = 0 and guided along x by its other faces.
+/// Returns a bar of length 1 and Poisson's ratio 0, clamped at x = 0 and guided along x by its other faces.
 ReductionOptions rod(int modes) {
   ReductionOptions options;
   options.name = "rod";
@@ -50,7 +50,7 @@ ReductionOptions rod(int modes) {
   return options;
 }
 
-/// Frequencies of the modes whose effective mass is along x [Hz].
+/// Returns the frequencies of the modes whose effective mass is along x [Hz].
 std::vector<double> axial_frequencies(const Superelement& body) {
   std::vector<double> found;
   for (Eigen::Index k = 0; k < body.modes(); ++k)

@@ -16,7 +16,7 @@ Adequacy judged(const Mesh& mesh, const ReductionOptions& options) {
   return *body.adequacy;
 }
 
-/// Relative excess of the first of `found` over the first of `truth`, and so on.
+/// Returns the relative excess of the first of `found` over the first of `truth`, and so on.
 Eigen::VectorXd excess(const Eigen::VectorXd& found, const Eigen::VectorXd& truth) {
   return (found.head(truth.size()).cwiseQuotient(truth).array() - 1).matrix();
 }

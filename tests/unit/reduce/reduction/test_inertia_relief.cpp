@@ -18,7 +18,7 @@ namespace {
 
 constexpr double young = 210e9, density = 7800;  // constants of test::steel()
 
-/// Forces of the twelve accelerations that are linear in space, on a mesh.
+/// Returns the forces of the twelve accelerations that are linear in space, on a mesh.
 RowMatrix inertia_loads(const Solid& solid) {
   const NodeGraph graph = node_graph(solid.mesh);
   const Eigen::Vector3d centre = mass_properties(solid).centre;
@@ -29,7 +29,7 @@ RowMatrix inertia_loads(const Solid& solid) {
   return assemble_mass(solid, graph, 1).multiply(fields, 3, 1);
 }
 
-/// Static coordinates of a body whose interface "a" is held.
+/// Returns the static coordinates of a body whose interface "a" is held.
 Eigen::MatrixXd answer(const Superelement& body, const Eigen::MatrixXd& forces, Eigen::Index held) {
   const Eigen::Index loose = body.size() - held;
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(body.size(), forces.cols());
@@ -40,7 +40,7 @@ Eigen::MatrixXd answer(const Superelement& body, const Eigen::MatrixXd& forces, 
 
 double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / b.norm(); }
 
-/// A slender steel bar of 1 m with rigid ends.
+/// Returns a slender steel bar of 1 m with rigid ends.
 Superelement bar(bool relieved, int modes = 16) {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, modes);
   options.inertia_relief = relieved;

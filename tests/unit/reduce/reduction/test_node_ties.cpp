@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-/// The nodes of a surface with weights 1, 2, 3, .. in place of areas.
+/// Returns the nodes of a surface with weights 1, 2, 3, .. in place of areas.
 Group weighted(const Mesh& mesh, const std::string& surface) {
   Group group;
   group.nodes = mesh.groups.at(surface).nodes;

@@ -46,7 +46,7 @@ void check_same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   CHECK((a - b).norm() < 1e-9 * b.norm());
 }
 
-/// Resultant of a pattern that follows the body: its work in unit translations.
+/// Returns the resultant of a pattern that follows the body: its work in unit translations.
 Eigen::Vector3d resultant(const Superelement& piece, const std::string& pattern) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(piece.size(), 6);
   rigid.topRows(piece.interface_directions()) = interface_rigid_motions(piece.interfaces, piece.centre);

@@ -43,7 +43,7 @@ ReductionOptions body_with_points(const FullMesh& full, Tie tie, int modes, cons
   return options;
 }
 
-/// Static coordinates under generalised forces with interface "a" held.
+/// Returns the static coordinates under generalised forces with interface "a" held.
 Eigen::MatrixXd static_answer(const Superelement& body, const Eigen::MatrixXd& forces) {
   const Eigen::Index loose = body.size() - 6;
   const Eigen::MatrixXd stiffness = body.stiffness.bottomRightCorner(loose, loose);
@@ -52,7 +52,7 @@ Eigen::MatrixXd static_answer(const Superelement& body, const Eigen::MatrixXd& f
   return q;
 }
 
-/// Largest error in the point's motion under unit loads on it, relative to the largest in the same unit.
+/// Returns the largest error in the point's motion under unit loads on it, relative to the largest in the same unit.
 double compliance_error(const FullMesh& full, const Superelement& body, const PointRequest& request, Tie tie,
                         int load) {
   const TiedPoint point = tie_points(full.solid, {request}, "box").front();

@@ -105,7 +105,7 @@ inline void check_two_at_a_time(const FactorKind& kind) {
   }
 }
 
-/// The message with which a matrix is refused; empty if it is not.
+/// Returns the message with which a matrix is refused; empty if it is not.
 inline std::string refusal(const FactorKind& kind, const SymmetricMatrix& a, int threads) {
   try {
     kind.make(a, threads);
@@ -133,7 +133,7 @@ inline void check_refusals(const FactorKind& kind) {
   }
 }
 
-/// Eigenvalues of a grid in ascending order.
+/// Returns the eigenvalues of a grid in ascending order.
 inline std::vector<double> grid_eigenvalues(const std::array<int, 3>& n) {
   std::vector<double> values;
   for (int i = 1; i <= n[0]; ++i)
@@ -144,7 +144,7 @@ inline std::vector<double> grid_eigenvalues(const std::array<int, 3>& n) {
   return values;
 }
 
-/// A shift in the widest gap among some eigenvalues, and how many lie below it.
+/// Returns a shift in the widest gap among some eigenvalues, and how many lie below it.
 inline std::pair<double, std::int64_t> shift_in_gap(const std::vector<double>& exact, double part) {
   const auto from = static_cast<std::size_t>(part * static_cast<double>(exact.size() - 1));
   std::size_t at = from;

@@ -39,7 +39,8 @@ TEST_CASE("Solutions with a factorised matrix leave residuals at rounding level"
 
 namespace {
 
-/// Largest |A x - b| over |A| |x| + |b|, |A| <= 12: of the order of eps, what a backward stable solution leaves.
+/// Returns the largest |A x - b| over |A| |x| + |b|, |A| <= 12: of the order of eps, what a backward stable solution
+/// leaves.
 double residual(const SymmetricMatrix& a, const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) {
   return (Eigen::MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() /
          (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());

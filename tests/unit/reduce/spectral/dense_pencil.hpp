@@ -19,28 +19,28 @@ struct DensePencil {
             [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(M * x); }};
   }
 
-  /// All finite eigenvalues, ascending: M y = nu (K - shift M) y, lambda = shift + 1/nu.
+  /// Returns all finite eigenvalues, ascending: M y = nu (K - shift M) y, lambda = shift + 1/nu.
   Eigen::VectorXd values() const {
     const Eigen::VectorXd nu = symmetric_eigenpairs(M, K - shift * M)->values.reverse();
     const Eigen::Index finite = (nu.array() > 1e-12 * nu(0)).count();
     return shift + nu.head(finite).array().inverse();
   }
 
-  /// Largest |K phi - lambda M phi| / |K phi|.
+  /// Returns the largest |K phi - lambda M phi| / |K phi|.
   double residual(const Eigenpairs& pairs) const {
     const Eigen::MatrixXd forces = K * pairs.vectors;
     const Eigen::MatrixXd error = forces - M * pairs.vectors * pairs.values.asDiagonal();
     return (error.colwise().norm().array() / forces.colwise().norm().array()).maxCoeff();
   }
 
-  /// Largest entry of Phi^T M Phi - I.
+  /// Returns the largest entry of Phi^T M Phi - I.
   double orthogonality(const Eigenpairs& pairs) const {
     const Eigen::Index n = pairs.vectors.cols();
     return (pairs.vectors.transpose() * M * pairs.vectors - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
   }
 };
 
-/// A matrix with these eigenvalues and arbitrary eigenvectors.
+/// Returns a matrix with these eigenvalues and arbitrary eigenvectors.
 inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
   const Eigen::MatrixXd any = StartVectors(values.size()).draw(values.size());
   const Eigen::MatrixXd Q = symmetric_eigenpairs(any + any.transpose()).vectors;
@@ -48,7 +48,7 @@ inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
   return (A + A.transpose()) / 2;
 }
 
-/// Masses of a chain between walls, `springs.size() - 1` of them: the stiffness.
+/// Returns the masses of a chain between walls, `springs.size() - 1` of them: the stiffness.
 inline Eigen::MatrixXd chain_of_springs(const Eigen::VectorXd& springs) {
   const Eigen::Index n = springs.size() - 1;
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);

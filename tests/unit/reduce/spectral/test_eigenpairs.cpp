@@ -35,7 +35,7 @@ struct GridProblem {
     return {factor.size(), shift, [this](const Eigen::MatrixXd& b) { return factor.solve(b); },
             [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(mass * x); }};
   }
-  /// All eigenvalues, ascending.
+  /// Returns all eigenvalues, ascending.
   std::vector<double> exact() const {
     std::vector<double> values;
     for (int i = 1; i <= n[0]; ++i) {

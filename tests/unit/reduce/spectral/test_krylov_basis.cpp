@@ -19,7 +19,7 @@ struct Checked {
   double orthogonality = 0;  // largest entry of X^T M X - I
 };
 
-/// Properties of the Ritz vectors of a basis, which is used up.
+/// Returns the properties of the Ritz vectors of a basis, which is used up.
 Checked check_ritz_vectors(const test::DensePencil& of, KrylovBasis& basis) {
   const RitzPairs ritz = basis.ritz();
   const Index old = basis.locked();

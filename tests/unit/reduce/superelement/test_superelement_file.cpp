@@ -30,7 +30,7 @@ MatrixXd symmetric(Eigen::Index n) {
   return a * a.transpose() + MatrixXd::Identity(n, n);
 }
 
-/// Two interfaces with 6 and 4 kept directions and 3 modes: n = 13; every part is filled.
+/// Returns two interfaces with 6 and 4 kept directions and 3 modes: n = 13; every part is filled.
 Superelement sample() {
   std::srand(7);
   const Eigen::Index n = 13, m = 3, p = 5;
@@ -78,7 +78,7 @@ Superelement sample() {
   return body;
 }
 
-/// The least superelement: one interface, no modes.
+/// Returns the least superelement: one interface, no modes.
 Superelement smallest() {
   Superelement body;
   body.interfaces.resize(1);
@@ -97,7 +97,7 @@ std::string written(const TemporaryFolder& folder, const Superelement& body) {
   return folder / "body.h5";
 }
 
-/// The reason why a sample whose file was changed is refused.
+/// Returns the reason why a sample whose file was changed is refused.
 std::string why_refused(const std::function<void(Hdf5File&)>& damage) {
   const TemporaryFolder folder;
   const std::string path = written(folder, sample());

@@ -15,8 +15,8 @@ namespace test_airfoil {
 
 constexpr double rho = 1.2, chord = 0.3, length = 2, wind = 10;
 
-/// A stiff massless blade along x with its chord along y, hinged at the origin to flap about y, with a hub of 50 kg
-/// m^2.
+/// Returns a stiff massless blade along x with its chord along y, hinged at the origin to flap about y, with a hub of
+/// 50 kg m^2.
 std::string flapping_blade(const std::string& keys) {
   return fmt::format(R"yaml(
 nodes:
@@ -100,8 +100,8 @@ measures: {turn: tip.rotation.x}
 
 namespace {
 
-/// A stiff blade along x that pitches about its line with the inertia of its hub. @param quarter  y of its quarter
-/// chord
+/// Returns a stiff blade along x that pitches about its line with the inertia of its hub. @param quarter  y of its
+/// quarter chord
 std::string pitching_blade(double quarter, double rate, const std::string& keys) {
   return fmt::format(R"yaml(
 nodes:

@@ -38,7 +38,7 @@ class Column {
     state_ = dense_->start();
     for (NodeState& node : state_.nodes) node.x.x() *= 1 + force / section[0];
   }
-  /// The tangent of deflections along z and turns against y, two each for the nodes 0, 1, .. [w, -theta_y].
+  /// Returns the tangent of deflections along z and turns against y, two each for the nodes 0, 1, .. [w, -theta_y].
   MatrixX lateral() const {
     const MatrixX K = dense_->tangent(state_, DenseModel::Part::K);
     MatrixX plane(2 * (elements_ + 1), 2 * (elements_ + 1));
@@ -48,7 +48,7 @@ class Column {
         plane(i, j) = K(place(i), place(j)) * (i % 2 == 0 ? 1 : -1) * (j % 2 == 0 ? 1 : -1);
     return plane;
   }
-  /// The same without the clamped node 0.
+  /// Returns the same without the clamped node 0.
   MatrixX clamped() const { return lateral().bottomRightCorner(2 * elements_, 2 * elements_); }
 
  private:
@@ -58,10 +58,10 @@ class Column {
   State state_;
 };
 
-/// EA, GAy, GAz, GJ, EIy, EIz of a section that does not stretch visibly, EI = 1 N m^2.
+/// Returns EA, GAy, GAz, GJ, EIy, EIz of a section that does not stretch visibly, EI = 1 N m^2.
 Vector6 slender(double shear) { return (Vector6() << 1e11, shear, shear, 1, 1, 1).finished(); }
 
-/// The force at which a clamped column buckles, by bisection [N].
+/// Returns the force at which a clamped column buckles, by bisection [N].
 double buckling_force(int elements, double shear) {
   double low = 0, high = 4;
   for (int k = 0; k < 60; ++k) {

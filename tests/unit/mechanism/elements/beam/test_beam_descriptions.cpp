@@ -28,7 +28,7 @@ struct Section {
         "shear_factors: [{:.17g}, {:.17g}], stress_points: [[{:.17g}, {:.17g}]]}}",
         size.x(), size.y(), young, density, offset.x(), offset.y(), factors.x(), factors.y(), point.x(), point.y());
   }
-  /// Seen from the other end: x and z change their signs.
+  /// Returns the section as seen from the other end: x and z change their signs.
   Section reversed() const {
     Section s = *this;
     s.offset.y() *= -1;
@@ -67,7 +67,7 @@ std::string nodes(const std::string& more = "") {
       list(start), list(end), more);
 }
 
-/// The part of the beam from s_a to s_b, in `elements` elements.
+/// Returns the part of the beam from s_a to s_b, in `elements` elements.
 std::string part(const std::string& name, const std::string& a, const std::string& b, double s_a, double s_b,
                  int elements) {
   const auto s = [&](const std::string& term) { return fmt::format("({} + {}*s){}", s_a, s_b - s_a, term); };
@@ -78,7 +78,7 @@ std::string part(const std::string& name, const std::string& a, const std::strin
       list(line.frame(s_a, start_axes, twist).R.col(1)), between(s_a).text(), between(s_b).text(), s(""), s("^2"));
 }
 
-/// The whole from end to start; loads per length in section axes of the other sense.
+/// Returns the whole beam from end to start; loads per length in section axes of the other sense.
 std::string reversed_beam(int elements) {
   return fmt::format(
       "  b: {{type: beam, nodes: [tip, root], elements: {}, arc_through: {}, twist: {:.17g}, orientation: {}, section: "

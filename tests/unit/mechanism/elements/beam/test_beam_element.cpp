@@ -81,7 +81,7 @@ TEST_CASE("the residual bending flexibility softens the shear of the section") {
   Matrix6 C = one_to_six;
   C(1, 1) = 72.0 / 37;
   C(2, 2) = 20.0 / 7;
-  // The bending parts of the shear, 1 of 37 and 1 of 21, stretch the element.
+  // The bending parts of the shear strains, 1/37 and 1/21 of them, stretch the element.
   const double bent = Vector2(eps[1] / 37, eps[2] / 21).squaredNorm(), chord = std::hypot(1 + eps[0], std::sqrt(bent));
   eps[0] = chord + 0.1 * bent / chord - 1;
   CHECK_THAT(element.dense->energy(element.state).elastic, Catch::WithinAbs(0.5 * eps.dot(C * eps), 1e-14));

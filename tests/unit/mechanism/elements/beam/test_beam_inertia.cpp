@@ -25,7 +25,7 @@ using Part = bielle::test::DenseModel::Part;
 
 namespace {
 
-/// Natural frequencies [rad/s] of a model about its start in the given unknowns, ascending.
+/// Returns the natural frequencies [rad/s] of a model about its start in the given unknowns, ascending.
 VectorX frequencies(const Model& model, const std::vector<int>& free) {
   const DenseModel dense(model);
   const State state = dense.start();
@@ -34,7 +34,7 @@ VectorX frequencies(const Model& model, const std::vector<int>& free) {
   return eigen.values.cwiseMax(0).cwiseSqrt();
 }
 
-/// A beam of unit length along x; nodes: 1 and 2 the ends, then the inner ones.
+/// Returns a beam of unit length along x; nodes: 1 and 2 the ends, then the inner ones.
 std::unique_ptr<Model> unit_beam(int elements, const std::string& section, const std::string& more = "") {
   return model_from_text(
       "nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}}\nelements:\n  shaft: {type: beam, "
@@ -53,7 +53,7 @@ std::vector<int> unknowns(int count, const std::vector<int>& directions, const s
 
 const std::string steel = "rectangle: [0.02, 0.02], young: 210e9, poisson: 0.3, density: 7800";
 
-/// Relative errors of the first modes (columns) for 8, 16, 32, 64 elements (rows).
+/// Returns the relative errors of the first modes (columns) for 8, 16, 32, 64 elements (rows).
 template <class Frequencies>
 MatrixX error_table(const VectorX& exact, const Frequencies& computed) {
   MatrixX table(4, exact.size());
@@ -62,7 +62,7 @@ MatrixX error_table(const VectorX& exact, const Frequencies& computed) {
   return table;
 }
 
-/// Orders of convergence from row to row.
+/// Returns the orders of convergence from row to row.
 MatrixX orders(const MatrixX& errors) {
   return (errors.topRows(3).array() / errors.bottomRows(3).array()).abs().log() / std::log(2);
 }
@@ -75,7 +75,7 @@ VectorX plane_frequencies(int elements, const std::string& section, const std::v
   return frequencies(*unit_beam(elements, section, more), unknowns(elements + 1, {0, 1, 5}, held));
 }
 
-/// Frequencies of a pinned Timoshenko beam of length 1: for q = n pi the lower root of
+/// Returns the frequencies of a pinned Timoshenko beam of length 1: for q = n pi the lower root of
 ///     m J omega^4/S - (m B q^2/S + m + J q^2) omega^2 + B q^4 = 0      (bending B, shear S, mass m, rotary inertia J)
 VectorX pinned_timoshenko(double B, double S, double m, double J) {
   VectorX omega(3);
@@ -86,8 +86,8 @@ VectorX pinned_timoshenko(double B, double S, double m, double J) {
   return omega;
 }
 
-/// The first three of the steel bar of 1 m and 20 mm x 20 mm, tests/references/timoshenko_beam.py. @param ends clamped,
-/// pinned
+/// Returns the first three of the steel bar of 1 m and 20 mm x 20 mm, tests/references/timoshenko_beam.py. @param ends
+/// clamped, pinned
 Vector3 steel_bar(const std::string& ends) {
   const bielle::test::ReferenceTable table("timoshenko_beam");
   const std::string name = "slender." + ends;

@@ -51,7 +51,7 @@ double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, cons
   return error;
 }
 
-/// The nearest to C0 that makes f of eps, f.eps > 0.
+/// Returns the nearest to C0 that makes f of eps, f.eps > 0.
 Matrix6 fitted(const Matrix6& C0, const Vector6& eps, const Vector6& f) {
   const Vector6 g = C0 * eps;
   return C0 - g * g.transpose() / eps.dot(g) + f * f.transpose() / eps.dot(f);
@@ -84,7 +84,7 @@ TEST_CASE(
     const auto error = [&](const Vector3& K0) {
       return patch_error(K0, eps, C.asDiagonal(), C.cwiseProduct(eps), bending);
     };
-    // An arc bent in its plane, to the other side even.
+    // The arc is bent in its plane beyond the straight line, to the other side.
     eps[5] = -1.1;
     CHECK(error({0, 0, 0.5}) < 1e-13);
     eps[5] = 0;
@@ -127,7 +127,7 @@ TEST_CASE("a beam rolls up exactly: once with three elements, to two turns with 
 
 namespace {
 
-/// A curved cantilever under two loads whose parts are switched by the parameter t.
+/// Returns a curved cantilever under two loads whose parts are switched by the parameter t.
 std::string loaded_arc(bool follower) {
   return std::string(
              "nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: [2, 1, 0]}}\n"
@@ -156,7 +156,7 @@ TEST_CASE("a load cycle ends where it began, and what lies between does not matt
   follow(beam, 2, 40);
   CHECK((beam.node("tip").x - Vector3(2, 1, 0)).norm() > 0.5);
   const NodeState loaded = beam.node("tip");
-  // The same loads at once, scaled up together: another path to the same place.
+  // The same loads, increased together, lead to the same position by another path.
   StaticModel other(loaded_arc(false));
   other.state.time = 2;
   REQUIRE(other.load(60, 1e-12) >= 0);

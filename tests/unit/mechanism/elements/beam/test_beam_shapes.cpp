@@ -20,7 +20,8 @@ namespace {
 
 constexpr double L = 12, E = 3, G = 1.2;
 
-/// A cantilever along x of an l section, its centroid on the line of the nodes; section axes are the inertial ones.
+/// Returns a cantilever along x of an l section, its centroid on the line of the nodes; section axes are the inertial
+/// ones.
 std::string angle(const std::string& keys, const std::string& loads = "") {
   return fmt::format(
              "nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: [{}, 0, 0]}}}}\n"
@@ -35,7 +36,7 @@ SectionConstants constants() {
   return make_section_shape("l", (VectorX(4) << 1.2, 1, 0.2, 0.3).finished())->constants();
 }
 
-/// Linear displacements of the tip.
+/// Returns the linear displacements of the tip.
 Vector6 tip(const std::string& yaml) {
   StaticModel beam(yaml);
   const VectorX r = beam.dense.residual(beam.state)(beam.free);

@@ -20,7 +20,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// All unknowns of the nodes after `first`.
+/// Returns all unknowns of the nodes after `first`.
 std::vector<int> free_from(const DenseModel& dense, int first) {
   std::vector<int> free(static_cast<std::size_t>(6 * (dense.nodes() - first)));
   std::iota(free.begin(), free.end(), 6 * first);
@@ -77,7 +77,7 @@ TEST_CASE("one element gives the tip deflection of a Timoshenko cantilever exact
 
 namespace {
 
-/// Deflection of the tip under a unit force there, by the stiffness at the reference.
+/// Returns the deflection of the tip under a unit force there, by the stiffness at the reference.
 Vector3 unit_deflection(const std::string& yaml, const Vector3& force) {
   const Cantilever beam(yaml);
   const std::vector<int> free = free_from(beam.dense, 2);

@@ -28,7 +28,7 @@ std::string beam(int elements, const std::string& section, const std::string& ro
          "}}\n";
 }
 
-/// Displacements of the tip under a unit force along y there, linear.
+/// Returns the displacements of the tip under a unit force along y there, linear.
 Vector6 unit_tip(const std::string& yaml) {
   const StaticModel model(yaml);
   VectorX f = VectorX::Zero(static_cast<Eigen::Index>(model.free.size()));

@@ -20,7 +20,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// A cantilever of length 2 along x: EIz = 3, GAy = 50, GJ = 2.
+/// Returns a cantilever of length 2 along x: EIz = 3, GAy = 50, GJ = 2.
 std::string cantilever(int elements, const std::string& load) {
   return "nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: [2, 0, 0]}}\n"
          "elements: {b: {type: beam, nodes: [root, tip], elements: " +
@@ -29,7 +29,7 @@ std::string cantilever(int elements, const std::string& load) {
          "}}\n";
 }
 
-/// Linear displacements of the tip: load at the reference, stiffness of the unloaded beam.
+/// Returns the linear displacements of the tip: load at the reference, stiffness of the unloaded beam.
 Vector6 linear_tip(const std::string& yaml) {
   StaticModel beam(yaml);
   const VectorX r = beam.dense.residual(beam.state)(beam.free);
@@ -37,7 +37,7 @@ Vector6 linear_tip(const std::string& yaml) {
   return -bielle::test::solution(beam.stiffness(), r).head<6>();
 }
 
-/// Sum of the forces of a model's loads and their moment about the origin, at its start.
+/// Returns the sum of the forces of a model's loads and their moment about the origin, at its start.
 Vector6 resultant(const std::string& yaml) {
   const auto model = model_from_text(yaml);
   const DenseModel dense(*model);
@@ -160,7 +160,7 @@ TEST_CASE("loads per length grow with the load factor") {
 
 namespace {
 
-/// Pressure that makes the stiffness of a quarter ring singular in the mode of two waves, R = 1, EI = 1.
+/// Returns the pressure that makes the stiffness of a quarter ring singular in the mode of two waves, R = 1, EI = 1.
 double buckling_pressure(int elements, bool follower) {
   // Section y points to the centre: with the start at angle 0 on the way to 90 degrees it is -x.
   StaticModel ring(

@@ -19,7 +19,7 @@ namespace test_loads_by_motion {
 
 constexpr double rho = 1.2, chord = 0.3, length = 2;
 
-/// A stiff blade along x with its chord along y, hinged to turn about z, with the hub's inertia of 5 kg m^2.
+/// Returns a stiff blade along x with its chord along y, hinged to turn about z, with the hub's inertia of 5 kg m^2.
 std::string turning_blade(double rate, const std::string& load, const std::string& more = "") {
   return fmt::format(R"yaml(
 nodes:
@@ -40,7 +40,7 @@ joints: {{shaft: {{type: hinge, nodes: [ground, root], axis: [0, 0, 1]}}}}
                      rate, rate * length, load, more);
 }
 
-/// A clamped stiff blade in the wind, along x.
+/// Returns a clamped stiff blade in the wind, along x.
 std::string held_blade(const std::string& load) {
   return fmt::format(R"yaml(
 nodes: {{root: {{fixed: true}}, tip: {{position: [2, 0, 0]}}}}

@@ -36,7 +36,8 @@ Matrix3 resultants(const SectionShape& s,
 
 using Sum = std::function<void(double, Vector2)>;
 
-/// Midpoint rule over the points of a box that the shape contains. Sides of the walls are multiples of the cells.
+/// Returns the midpoint rule over the points of a box that the shape contains. Sides of the walls are multiples of the
+/// cells.
 std::function<void(const Sum&)> over_cells(const SectionShape& s, const Vector2& low, const Vector2& high,
                                            double cell) {
   return [&s, low, high, cell](const Sum& add) {
@@ -230,7 +231,7 @@ TEST_CASE("sections along a taper of walls are those of solutions at the place, 
   check("t", "{width: 60, height: 100, web: 5, flange: 5}", "{width: 40, height: 40, web: 8, flange: 3}", 17);
   check("l", "{width: 60, height: 100, thickness: [5, 8]}", "{width: 40, height: 40, thickness: 5}", 17);
   check("box", "{width: 60, height: 100, thickness: 0.5}", "{width: 20, height: 30, thickness: 0.25}", 17);
-  // A box that all but fills: more solutions, or one for each section.
+  // The box is almost hollow at one end and almost full at the other, so that more solutions are needed.
   check("box", "{width: 60, height: 100, thickness: 0.01}", "{width: 20, height: 30, thickness: 9.99}", 33);
 }
 

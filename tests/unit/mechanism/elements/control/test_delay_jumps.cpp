@@ -23,9 +23,9 @@ const std::vector<std::pair<double, double>> kinds_of_steps = {
 
 double value(Session& session, const char* name) { return session.read(std::string("measures/") + name)[0]; }
 
-/// A relay u = sign x by events, and x' = -u(t - T) with x = T/2 at first: the slope changes its sign T after each
-/// zero, up to which |x| has grown to T. So x oscillates between -T and T with the period 4 T, and falls through 0 at
-/// T/2.
+/// Returns a relay u = sign x by events, and x' = -u(t - T) with x = T/2 at first: the slope changes its sign T after
+/// each zero, up to which |x| has grown to T. So x oscillates between -T and T with the period 4 T, and falls through 0
+/// at T/2.
 std::string relay(double T) {
   return rotor(
       fmt::format("inputs: {{u: 1}}\n"

@@ -11,7 +11,7 @@ using Complex = std::complex<double>;
 
 namespace {
 
-/// C (s - A)^-1 B + D
+/// Returns C (s - A)^-1 B + D.
 Eigen::VectorXcd response(const LinearBlock& block, Complex s) {
   const Eigen::Index n = block.A.rows();
   const Eigen::MatrixXcd left = s * Eigen::MatrixXcd::Identity(n, n) - block.A.cast<Complex>();

@@ -19,7 +19,7 @@ namespace test_sampled {
 
 double held_value(Session& session, const std::string& name) { return session.read("measures/" + name)[0]; }
 
-/// A rotor of 0.5 kg m^2 under the torque u = -kp (q - 1) - kd q' of instants every T, from rest.
+/// Returns a rotor of 0.5 kg m^2 under the torque u = -kp (q - 1) - kd q' of instants every T, from rest.
 std::string controlled(const std::string& more, double kp = 20, double kd = 3) {
   return rotor("parameters: {kp: " + std::to_string(kp) + ", kd: " + std::to_string(kd) +
                "}\n"
@@ -318,7 +318,7 @@ TEST_CASE("a sampled value that is no number ends the motion and names the state
   };
   CHECK_THAT(message("sampled: \"exp(5000*main.angle)\""),
              Contains("states.r.sampled") && Contains("t = 0.1") && Contains("larger than anything"));
-  // States 0, 1, 1e60, 1e120, .. beyond all numbers.
+  // The states 0, 1, 1e60, 1e120, .. soon exceed all numbers.
   CHECK_THAT(message("sampled: [1], state_space: {A: [[1e60]], B: [[1]]}"),
              Contains("t = 0.7 s") && Contains("'r'") && Contains("not a finite number"));
 }

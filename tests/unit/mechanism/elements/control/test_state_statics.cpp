@@ -16,7 +16,7 @@ using Catch::Contains;
 
 namespace {
 
-/// An arm of 2 kg, its centre 0.5 m from its horizontal axle, drawn along x.
+/// Returns an arm of 2 kg, its centre 0.5 m from its horizontal axle, drawn along x.
 std::string arm(const std::string& more) {
   return R"yaml(
 gravity: [0, -9.81, 0]

@@ -20,7 +20,7 @@ using bielle::test::steps_of;
 
 namespace {
 
-/// Values of measures at the end of a motion.
+/// Returns the values of measures at the end of a motion.
 Eigen::VectorXd at_end(const std::string& text, double duration, double h, const std::vector<std::string>& names,
                        double tolerance = 0) {
   Session session = session_of(text);

@@ -28,7 +28,7 @@ std::unique_ptr<Model> body(const std::string& keys) {
       keys + "}\n");
 }
 
-/// The mass matrix of a body about its node.
+/// Returns the mass matrix of a body about its node.
 MatrixX mass_matrix(const Model& model) {
   const DenseModel dense(model);
   return dense.tangent(dense.start(), DenseModel::Part::M).block<6, 6>(6, 6);

@@ -31,7 +31,7 @@ void name_point(Superelement& body, const std::string& name, const Vector3& plac
   body.points[name] = {place, point_shapes(body, place), residual};
 }
 
-/// The straight beam of length 1 with its middle as a third interface, or with a point there.
+/// Returns the straight beam of length 1 with its middle as a third interface, or with a point there.
 std::string cantilever(const std::string& folder, const std::string& middle, const std::string& points) {
   return "nodes: {root: {fixed: true}" + middle + "}\n" + points +
          "elements:\n  it: {type: superelement, file: " + folder + "/beam.h5, nodes: {a: root" +

@@ -32,7 +32,7 @@ State carried(const State& state, const Frame& motion, const Vector3& v = Vector
   return result;
 }
 
-/// The residual in the node axes, in which rigid motions have no effect.
+/// Returns the residual in the node axes, in which rigid motions have no effect.
 VectorX turned_back(const VectorX& r, const Matrix3& R, int nodes) {
   VectorX result = r;
   for (int k = 0; k < nodes; ++k) result.segment<3>(6 * k) = R.transpose() * r.segment<3>(6 * k);
@@ -236,7 +236,8 @@ TEST_CASE("rotations that an interface does not keep carry no moment") {
   turned.nodes[1].Omegadot.setConstant(11);
   CHECK(error(forces_alone.residual(turned), forces_alone.residual(state)) == 0);
 
-  // Free about z of the body: no moment about the node's image of it, at any spin about it.
+  // The interface is free about z of the body. There is no moment about the image of this axis at the node, for any
+  // spin about it.
   const SuperelementAlone free_about_z(chains[2].reduced().body);
   const State tilted = free_about_z.random_state(random, 0.05, 3);
   const VectorX r = free_about_z.residual(tilted);

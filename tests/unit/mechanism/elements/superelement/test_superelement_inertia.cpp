@@ -68,7 +68,7 @@ struct Reference {
     const Matrix3 R_rate = d.segment<9>(here.points.size()).reshaped(3, 3);
     rates.Om = skew_vector(here.frame.R.transpose() * R_rate);
     rates.q = d.tail(here.q.size());
-    // Rotary inertia turns with s = U nu_0 + qdot, of which it sees the rotations.
+    // Rotary inertia rotates with s = U nu_0 + qdot; only the rotations of s matter.
     const SuperelementMatrices& matrices = alone.body().matrices();
     MatrixX U(here.q.size(), 6);
     for (int k = 0; k < 6; ++k) {

@@ -74,7 +74,7 @@ std::vector<double> spinning_frequencies(const SuperelementAlone& alone, const V
   return frequencies;
 }
 
-/// The four bending frequencies y1 z1 y2 z2 above `floor`.
+/// Returns the four bending frequencies y1 z1 y2 z2 above `floor`.
 std::array<double, 4> bending(const std::vector<double>& frequencies, double floor = 15) {
   std::array<double, 4> result{};
   std::size_t found = 0;

@@ -35,8 +35,8 @@ const std::vector<Sample> samples = {
     {"spherical", "rz", 2, 3, true, {"rx", "ry"}},
 };
 
-/// A body of 2 kg and 0.5 kg m^2 in the joint, on which stiffness, damping and the other actions act. A spring of 900
-/// holds the remaining freedoms, and a drive pushes.
+/// Returns a body of 2 kg and 0.5 kg m^2 in the joint, on which stiffness, damping and the other actions act. A spring
+/// of 900 holds the remaining freedoms, and a drive pushes.
 std::string model(const Sample& sample, const std::string& stiffness, const std::string& more,
                   const std::string& push) {
   std::string springs = fmt::format("{}: {}", sample.coordinate, stiffness);

@@ -8,7 +8,7 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// An arm of inertia 0.5 kg m^2 about a fixed axle, with a drive.
+/// Returns an arm of inertia 0.5 kg m^2 about a fixed axle, with a drive.
 std::string arm(const std::string& drive) {
   return R"yaml(
 nodes: {arm: {position: [0, 0, 0]}}
@@ -18,7 +18,7 @@ drives: {motor: {joint: axle, )yaml" +
          drive + "}}\n";
 }
 
-/// Angle and drive torque as they are recorded.
+/// Returns angle and drive torque as they are recorded.
 std::pair<double, double> recorded(const ReadyModel& model, const State& state) {
   double joint[16], torque[1];
   const auto& members = model.file.model.members();

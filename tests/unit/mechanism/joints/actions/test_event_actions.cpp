@@ -28,7 +28,7 @@ Vector3 velocity(const Session& session, const std::string& node) {
 }
 double value(const Session& session, const std::string& dataset) { return session.read(dataset)[0]; }
 
-/// A mass on a thing that holds it 1 m below the ground until an instant.
+/// Returns a mass on a component that holds it 1 m below the ground until an instant.
 std::string held_mass(const std::string& holder, double time) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -10]

@@ -21,8 +21,8 @@ int redundant_in(const Session& session) {
   return count;
 }
 
-/// Rotors of 0.5 and 0.2 kg m^2 on one axle: the second turns in bearings on the ground or on the first; the joint
-/// `clutch` is between the two in both cases. A torque of 3 N m turns the first.
+/// Returns rotors of 0.5 and 0.2 kg m^2 on one axle: the second turns in bearings on the ground or on the first; the
+/// joint `clutch` is between the two in both cases. A torque of 3 N m turns the first.
 std::string rotors(bool both_on_ground) {
   return R"yaml(
 nodes:
@@ -287,7 +287,7 @@ TEST_CASE("a lock that steps cannot end on closes with the next one") {
   CHECK(motion.log().steps == 10);
   CHECK(session.node("first").Omega.z() == Approx(6).epsilon(1e-6));
   CHECK(session.node("second").Omega.z() == Approx(6).epsilon(1e-6));
-  // It closes at 0.5 s, and opens at 0.7 s, without a torque that tells.
+  // The clutch closes at 0.5 s and opens at 0.7 s; its torque is zero at the end.
   CHECK(session.read("joints/clutch/coordinate")[0] == Approx(-14 * 0.5).epsilon(1e-6));
   CHECK(session.read("joints/clutch/lock_force")[0] == 0);
 }

@@ -258,7 +258,7 @@ drives:
   return text;
 }
 
-/// A door on two hinges, one above the other.
+/// Returns a door on two hinges, one above the other.
 std::string door(double mu, const std::string& swap = "") {
   const std::string upper = "  upper: {type: hinge, nodes: [ground, door], axis: [0, 0, 1], position: [0, 0, 0.7]}\n",
                     lower = "  lower: {type: hinge, nodes: [ground, door], axis: [0, 0, 1], position: [0, 0, -0.7]}\n";
@@ -289,8 +289,8 @@ TEST_CASE("ordinary friction raises no alarm") {
 
 namespace {
 
-/// Acceleration at the start of the door. Both hinges, H apart, carry half of the force m rho (-w^2, w', g/rho); the
-/// weight's moment m g rho is carried by a pair of forces +-d and by the hinges' moments M_1 = M_2 = n:
+/// Returns the acceleration at the start of the door. Both hinges, H apart, carry half of the force m rho (-w^2, w',
+/// g/rho); the weight's moment m g rho is carried by a pair of forces +-d and by the hinges' moments M_1 = M_2 = n:
 ///     H d + 2 n = m g rho,   the smallest 2 d^2 + 2 n^2/L^2:   d = m g rho H/(H^2 + 4 L^2)
 double door_acceleration(double mu, double L) {
   constexpr double mass = 20, rho = 0.4, w = 2, H = 1.4, r = 0.03, inertia = 1 + mass * rho * rho;

@@ -75,7 +75,7 @@ std::string four_bar(const Variant& as) {
                     as.joint("d", "hinge", "ground, rocker", "[0, 0, 1]", 1, 0, 0)});
 }
 
-/// A rigid bar on three supports: a ball and two planes.
+/// Returns a rigid bar on three supports: a ball and two planes.
 std::string bar(const Variant& as) {
   return as.gravity(1, 2, -9.81) + "nodes:\n" + as.node("bar", 0.7, 0, 0) + "elements:\n" +
          as.body("bar", 3, {0.01, 0.5, 0.5}) +
@@ -119,7 +119,7 @@ std::string bennett(const Variant& as) {
   return as.gravity(1, 2, -9.81) + nodes + elements + as.joints(joints);
 }
 
-/// Squares of hinges in a row, each on the side of the one before: three redundant constraints each.
+/// Returns squares of hinges in a row, each on the side of the one before: three redundant constraints each.
 std::string squares(int count, const Variant& as) {
   std::string nodes = "nodes:\n", elements = "elements:\n";
   std::vector<std::string> joints;
@@ -141,8 +141,8 @@ std::string squares(int count, const Variant& as) {
   return as.gravity(1, -9.81, 2) + nodes + elements + as.joints(joints);
 }
 
-/// The wrench of each joint's multipliers, in inertial axes about the attachment point on its second node, from their
-/// terms in that node's equations.
+/// Returns the wrench of each joint's multipliers, in inertial axes about the attachment point on its second node, from
+/// their terms in that node's equations.
 MatrixX wrenches(const ReadyModel& model, const State& state) {
   const System& system = model.system;
   std::vector<const Joint*> joints;
@@ -293,7 +293,7 @@ joints:
 
 namespace {
 
-/// Reported wrenches in inertial axes by the joints' names, in the first units.
+/// Returns the reported wrenches in inertial axes by the joints' names, in the first units.
 std::map<std::string, Vector6> reported(const Case& each, const Variant& as, bool on_the_way) {
   const ReadyModel model(each.text(as));
   State state = on_the_way ? moving(model)

@@ -48,7 +48,7 @@ elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
 
 constexpr SeriesStrut::Law law{400, 3e4, 900, 5, 0.7};
 
-/// A pendulum whose bob hangs on a strut as well.
+/// Returns a pendulum whose bob hangs on a strut as well.
 Ready pendulum(bool eliminated, double start = 0) {
   Ready model(R"yaml(
 gravity: [0, -9.81, 0]

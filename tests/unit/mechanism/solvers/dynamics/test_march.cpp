@@ -12,7 +12,7 @@ using namespace bielle::test;
 
 namespace {
 
-/// A mass of 1 kg on a spring of (2 pi)^2 N/m along x: period 1 s. `force` acts along x.
+/// Returns a mass of 1 kg on a spring of (2 pi)^2 N/m along x: period 1 s. `force` acts along x.
 std::string oscillator(const std::string& force, double start) {
   return "nodes: {m: {position: [" + std::to_string(1 + start) + R"yaml(, 0, 0], fixed: [y, z, rx, ry, rz]}}
 elements:
@@ -117,7 +117,7 @@ joints:
 }  // namespace
 
 TEST_CASE("steps that change and change again do not feed on what they left in the accelerations") {
-  // With constraints of index 3 and little dissipation the local error once consisted of dissipation alone, with steps
+  // With constraints of index 3 and little dissipation, the local error was once only dissipation, which led to steps
   // of 1e-10 s.
   const ReadyModel model(double_pendulum);
   for (const double rho : {0.95, 0.9, 0.8, 0.5}) {

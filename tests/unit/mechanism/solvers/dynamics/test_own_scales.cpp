@@ -53,7 +53,7 @@ elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
   }
 };
 
-/// The first first-order unknown at the end of each of 100 steps.
+/// Returns the first first-order unknown at the end of each of 100 steps.
 std::vector<double> values(const Ready& model, const NewtonOptions& options) {
   TimeIntegration integration = model.integration(options);
   integration.start(1e-3);
@@ -141,13 +141,13 @@ TEST_CASE("adaptive steps keep the error of a bristle to its tolerance next to a
     const March01 one(alone, tolerance), both(together, tolerance);
     CHECK(one.march.log().steps == both.march.log().steps);
     CHECK(both.worst == Approx(one.worst).epsilon(1e-6));
-    // Local errors of some fifty steps, of one sign while the bristle bends.
+    // The bound allows for the local errors of some fifty steps, which have one sign while the bristle bends.
     CHECK(both.worst < 20 * tolerance);
   }
 }
 
 TEST_CASE("what is much smaller than its scale does not make steps small") {
-  // A bristle that fades from a thousandth of a millionth of its scale within a thousandth of the time.
+  // A bristle starts at 1e-9 of its scale and decays within a thousandth of the time.
   const auto fading = [](double scale) {
     const Declaration::Scalar unknown{"value", "m", 1e-9 * bristle_size, ConstraintKind::holonomic, scale};
     return std::make_unique<ScalarEquation>("fading", unknown, [](double u, double rate) -> ScalarEquation::Law {
@@ -189,7 +189,7 @@ TEST_CASE("equations are reported with names and units of their own") {
   CHECK(declared.system->equation_units(declared.system->dofs()) == "m^3/s");
   CHECK(declared.system->scale(declared.system->dofs()) == 1e7);
 
-  // No iteration at all: the first residual stays.
+  // Without iterations the first residual is kept.
   NewtonOptions none;
   none.iterations = 0;
   TimeIntegration integration = model.integration(none);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double end = 1, tp = 0.5051;
 
-/// A pulse of 2 N s within 1 ms, a bump of 10 mm.
+/// Returns a pulse of 2 N s within 1 ms, a bump of 10 mm.
 std::string with_pulse(const std::string& text, double w = 1e-3) {
   const std::string shape = fmt::format("exp(-((t - {})/{})^2)", tp, w);
   std::string result = text;
@@ -34,11 +34,12 @@ struct Struck {
 };
 
 double velocity_of(const ReadyModel& model, const State& state) { return model.node(state, "a").v.x(); }
-/// Velocity beyond that of the rest of the load.
+/// Returns a function for the velocity less that due to the rest of the load.
 std::function<double(const ReadyModel&, const State&)> velocity_beyond(double rest) {
   return [=](const ReadyModel& model, const State& state) { return velocity_of(model, state) - rest; };
 }
-/// The amplitude of the motion about a place [m]; the phase would contain the errors of the steps after the pulse.
+/// Returns the amplitude of the motion about a place [m]; the phase would contain the errors of the steps after the
+/// pulse.
 std::function<double(const ReadyModel&, const State&)> amplitude_about(double x) {
   return [=](const ReadyModel& model, const State& state) {
     const NodeState& node = model.node(state, "a");
@@ -61,7 +62,7 @@ std::string sliding(const std::string& more, const std::string& elements = "", c
   return text + more;
 }
 
-/// 2 kg on a spring of 2000 N/m that is attached to a moving part: omega^2 = 1000 1/s^2.
+/// Returns a mass of 2 kg on a spring of 2000 N/m that is attached to a moving part: omega^2 = 1000 1/s^2.
 std::string carried(const std::string& node, const std::string& more, const std::string& joint = "") {
   return "nodes: {r: {position: [0, 0, 0]" + node + "}, a: {position: [0.3, 0, 0]}}\n" +
          "elements: {n: {type: point_mass, node: r, mass: 1}, m: {type: point_mass, node: a, mass: 2}}\n"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double h = 0.01, load = 100, stiffness = 1e9, omega = 1e6;
 
-/// A guide of 1e9 N/m under 1 g: 1e6 rad/s, in steps of 10 ms. A load of 100 N comes within 0.1 ms.
+/// Returns a guide of 1e9 N/m under 1 g: 1e6 rad/s, in steps of 10 ms. A load of 100 N comes within 0.1 ms.
 std::string guide(const std::string& event, const std::string& rise = "0.012, 0.0121") {
   return R"yaml(
 nodes: {a: {position: [0, 0, 0]}}
@@ -50,7 +50,7 @@ void run(const std::string& text, double size, const Act& act) {
   }
 }
 
-/// Places of the guide at the times of the grid [m].
+/// Returns the places of the guide at the times of the grid [m].
 std::vector<double> places(const std::string& text, double size) {
   std::vector<double> places;
   run(text, size, [&](double /*time*/, const NodeState& node, const MarchStep& step) {

@@ -20,7 +20,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A small random motion about the start: everything moves and is loaded.
+/// Returns a small random motion about the start: everything moves and is loaded.
 State moved(const System& system, Random& random) {
   State state = system.start(0.3);
   system.displace(state, State(state), 0.01 * random.vector(system.dofs()));

@@ -15,8 +15,8 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// A crank on a moving axle, a rod on a spring and a redundant hinge loop. Lengths times L, masses times L^3 and times
-/// as they are: forces times L^4, moments times L^5.
+/// Returns a crank on a moving axle, a rod on a spring and a redundant hinge loop. Lengths times L, masses times L^3
+/// and times as they are: forces times L^4, moments times L^5.
 std::string engine(double L, const std::string& drives) {
   return fmt::format(R"yaml(
 parameters: {{L: {}}}

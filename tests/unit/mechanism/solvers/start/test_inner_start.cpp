@@ -20,7 +20,7 @@ namespace {
 
 constexpr double omega = 1.3, r_0 = 0.4, r_1 = 3, m = 5, Jx = 0.02;
 
-/// Kinetic energy at the start of the motion.
+/// Returns the kinetic energy at the start of the motion.
 double kinetic(const std::string& text) {
   Session session(read_mechanism_text(text, "model.yaml").model);
   DynamicsOptions options;

@@ -12,7 +12,8 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// Ground - spring (1000 N/m, damper c) - p without mass - spring (3000 N/m) - m of 1 kg, which moves at 1 m/s.
+/// Returns a chain: ground - spring (1000 N/m, damper c) - p without mass - spring (3000 N/m) - m of 1 kg, which moves
+/// at 1 m/s.
 std::string series(const std::string& p, const std::string& c, const std::string& load = "") {
   return R"yaml(
 nodes:

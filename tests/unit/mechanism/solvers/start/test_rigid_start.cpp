@@ -47,7 +47,7 @@ std::string refusal(const std::string& model) {
   return text == "(nothing thrown)" ? "" : text;
 }
 
-/// A hub on a shaft along x in two bearings, with two beams as blades along +-z from r = 0.2 to 2.2 m.
+/// Returns a hub on a shaft along x in two bearings, with two beams as blades along +-z from r = 0.2 to 2.2 m.
 std::string rotor(const std::string& joints, const std::string& more_nodes = "",
                   const std::string& more_elements = "") {
   return fmt::format(R"yaml(

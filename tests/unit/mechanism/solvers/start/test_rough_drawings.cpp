@@ -18,7 +18,7 @@ namespace {
 
 constexpr double turn_off = 20 * M_PI / 180;
 
-/// Axes of a link from p to q: x along it, z as close to the given one as possible.
+/// Returns the axes of a link from p to q: x along it, z as close to the given one as possible.
 Matrix3 link_axes(const Vector3& p, const Vector3& q, const Vector3& z = Vector3::UnitZ()) {
   const Vector3 x = (q - p).normalized(), y = z.cross(x).normalized();
   Matrix3 R;
@@ -26,7 +26,7 @@ Matrix3 link_axes(const Vector3& p, const Vector3& q, const Vector3& z = Vector3
   return R;
 }
 
-/// Links of 0.3, 0.9 and 0.7 m between posts 1 m apart; nodes in their middle.
+/// Returns links of 0.3, 0.9 and 0.7 m between posts 1 m apart; nodes in their middle.
 std::string four_bar(unsigned seed, const FourBar& fits, const std::string& crank_keys = "",
                      const std::string& rocker_keys = "", double coupler = 0.9) {
   RoughDrawing drawing(seed, 0.05, turn_off);
@@ -44,7 +44,7 @@ std::string four_bar(unsigned seed, const FourBar& fits, const std::string& cran
                       hinge("d", "ground, rocker", "[1, 0, 0], [-0.35, 0, 0]", rocker_keys));
 }
 
-/// The other way to close it: C mirrored on the line from B to D.
+/// Returns the other way to close it: C mirrored on the line from B to D.
 FourBar crossed(FourBar bar) {
   const Vector3 e = (bar.D - bar.B).normalized(), r = bar.C - bar.B;
   bar.C = bar.B + 2 * e.dot(r) * e - r;

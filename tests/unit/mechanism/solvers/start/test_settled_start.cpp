@@ -18,7 +18,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// Two masses on a bar that turns about y, each with a moment of 100 N m; one of them is farther out.
+/// Returns two masses on a bar that turns about y, each with a moment of 100 N m; one of them is farther out.
 std::string balance(double farther) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]
@@ -32,7 +32,7 @@ joints: {{pivot: {{type: hinge, nodes: [ground, bar], axis: [0, 1, 0], start_rat
                      1 + farther, 100 / g, 100 / g);
 }
 
-/// The angle of the bar after settling, and the report.
+/// Returns the angle of the bar after settling, and the report.
 double settled_angle(const std::string& text, std::string& report) {
   Session session(read_mechanism_text(text, "model.yaml").model);
   DynamicsOptions options;
@@ -44,7 +44,7 @@ double settled_angle(const std::string& text, std::string& report) {
   return session.read("joints/pivot/coordinate")[0];
 }
 
-/// A tower with a rotor in front, whose centre is off its axis; `analysis` is its only one.
+/// Returns a tower with a rotor in front, whose centre is off its axis; `analysis` is its only one.
 std::string tower(const std::string& start) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

@@ -35,8 +35,8 @@ std::string four_bar(const std::string& crank_keys, const std::string& rocker_ke
          hinge("c", "coupler, rocker", bar.C, "") + hinge("d", "ground, rocker", bar.D, rocker_keys) + more;
 }
 
-/// Rocker's rate over the crank's: a sin(t2 - t3) / (c sin(t4 - t3)), t2, t3, t4 the directions of crank, coupler,
-/// rocker.
+/// Returns the rocker's rate over the crank's: a sin(t2 - t3) / (c sin(t4 - t3)), t2, t3, t4 the directions of crank,
+/// coupler, rocker.
 double rate_ratio() {
   const FourBar bar = bielle::test::released_four_bar();
   const auto direction = [](const Vector3& from, const Vector3& to) {

@@ -15,7 +15,7 @@ using Catch::Contains;
 namespace test_unclosed {
 namespace {
 
-/// Links of 0.3, `coupler` and 0.7 m between posts `ground` m apart, drawn roughly.
+/// Returns links of 0.3, `coupler` and 0.7 m between posts `ground` m apart, drawn roughly.
 std::string four_bar(double coupler, double ground, const std::string& crank_keys = "",
                      const std::string& rocker_keys = "") {
   bielle::test::RoughDrawing drawing(3, 0.05, 0.3);

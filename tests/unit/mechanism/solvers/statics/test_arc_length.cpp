@@ -28,7 +28,7 @@ const double L0 = std::hypot(b, h);
 
 double truss_load(double w) { return 2 * EA * (h - w) * (1 / std::hypot(b, h - w) - 1 / L0); }
 
-/// Load at which P(w) + k w is largest (sign 1) or least (-1): dP/dw = -k.
+/// Returns the load at which P(w) + k w is largest (sign 1) or least (-1): dP/dw = -k.
 double truss_limit(int sign, double k = 0) {
   return h - sign * std::sqrt(std::pow(b * b / (k / (2 * EA) + 1 / L0), 2.0 / 3) - b * b);
 }
@@ -190,7 +190,7 @@ TEST_CASE("motions of nodes and drives take the factor as loads do, past limit p
 
 namespace {
 
-/// A hinged shallow arch of beams in units of 1/scale of a metre.
+/// Returns a hinged shallow arch of beams in units of 1/scale of a metre.
 std::string arch(double scale) {
   const std::string section = fmt::format(
       ", elements: 4, section: {{EA: 1e6, GAy: 4e5, GAz: 4e5, GJ: {0}, EIy: {0}, EIz: {0}}}}}\n", 40 * scale * scale);

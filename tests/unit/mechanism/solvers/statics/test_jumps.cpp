@@ -90,7 +90,7 @@ TEST_CASE("a jump is told whatever the load and the steps, in any unit of length
 }
 
 TEST_CASE("a jump in one of many members is told, and where the others go on as before") {
-  // The truss under a load that bends a cantilever of the same size at the same time.
+  // The load of the truss also bends a cantilever of the same size.
   const auto both = [](double load) {
     return fmt::format(
         "nodes:\n  a: {{fixed: true}}\n  c: {{position: [1, 0, 0.1], fixed: [x, y, rx, ry, rz]}}\n"
@@ -148,7 +148,7 @@ TEST_CASE("rows of statics stand at the load factors that the output asks for") 
   path.path->end.load_factor = 0.9;
   const double load = 2 * carried(y_limit);  // the limit at load factor 0.5
   const auto [factor, position] = record(load, path, "[-0.2, 0.1, 0.45, 0.9]");
-  // Up to the limit, down to the other one, and up again.
+  // The load rises to the upper limit, falls to the lower one, and rises again.
   CHECK_THAT(factor, Catch::Approx(std::vector<double>{0.1, 0.45, 0.5, 0.45, 0.1, -0.2, -0.5, -0.2, 0.1, 0.45, 0.9}));
   check_balance(load, factor, position);
 }

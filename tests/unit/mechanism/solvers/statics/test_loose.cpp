@@ -18,7 +18,7 @@ namespace {
 
 constexpr double stiffness = 1000, force = 50;
 
-/// A slider on a spring, pushed through links end to end that can each turn about their own axis.
+/// Returns a slider on a spring, pushed through links end to end that can each turn about their own axis.
 /// @param moment  on the first link, about its axis [N m]
 std::string links(int count, double moment, const std::string& inertia = "[1e-3, 1e-3, 1e-3]") {
   std::string nodes, elements, joints;

@@ -11,7 +11,8 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// A mass of 2 kg that hangs from a point on a spring of length zero: k z = -m g, with any of its keys.
+/// Returns the position of a mass of 2 kg that hangs from a point on a spring of length zero: k z = -m g, with any of
+/// its keys.
 Vector3 hanging(double drawn, double stiffness, const StaticsOptions& options = {}) {
   const MechanismFile file = read_mechanism_text(
       fmt::format("gravity: [0, 0, -9.81]\nnodes: {{m: {{position: [0, 0, {:.17g}]}}}}\nelements:\n"

@@ -41,7 +41,7 @@ joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 1, 0], position: [0
 
 namespace {
 
-/// A beam under an end moment that bends it by `turns`, in three elements and two load steps.
+/// Returns the state of a beam under an end moment that bends it by `turns`, in three elements and two load steps.
 State rolled_up(double turns) {
   const MechanismFile file = read_mechanism_text(
       R"yaml(

@@ -25,7 +25,7 @@ namespace {
 // The two sum the same few products in another order.
 constexpr double rounding = 1e-14;
 
-/// The expected gradient, or the message if there is none.
+/// Returns the expected gradient, or the message if there is none.
 std::string expected_message(const Expression& formula, const std::vector<double>& x) {
   return message_of<ComputationError>([&] {
     formula(x);

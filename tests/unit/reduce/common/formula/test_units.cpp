@@ -11,13 +11,13 @@ using bielle::units_of;
 
 namespace {
 
-/// Units of a formula of quantities with units of their own and of a parameter `r`.
+/// Returns the units of a formula of quantities with units of their own and of a parameter `r`.
 std::string units(const std::string& text, const std::string& folder = ".") {
   const Expression formula(text, {"x", "y", "angle", "rate", "force", "moment", "v", "t", "n", "what"}, {{"r", 0.5}},
                            folder);
   return units_of(formula, {"m", "m", "rad", "rad/s", "N", "N m", "m/s", "s", "-", ""});
 }
-/// The units of a variable after reading and writing.
+/// Returns the units of a variable after reading and writing.
 std::string read(const std::string& text) { return units_of(Expression("a", {"a"}), {text}); }
 
 }  // namespace

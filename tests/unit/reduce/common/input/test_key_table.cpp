@@ -93,7 +93,7 @@ std::string why(const std::string& text, Action&& action) {
   return message_of<InputError>([&] { action(hinge(text)); });
 }
 
-/// The message about a number.
+/// Returns the message about a number.
 std::string why_number(const std::string& key, const std::string& value) {
   return why(key + ": " + value, [&](const YamlValue& entry) { entry.at(key).number(); });
 }

@@ -27,7 +27,8 @@ Matrix6 isotropic(double young, double poisson) {
   return C;
 }
 
-/// Any matrices: displacement of five nodes, stress at four of them of two materials, two volumes.
+/// Returns a body with arbitrary matrices: displacement of five nodes, stress at four of them of two materials, two
+/// volumes.
 Superelement sample(int coordinates = 7) {
   std::srand(11);
   Superelement body;
@@ -42,7 +43,7 @@ Superelement sample(int coordinates = 7) {
   return body;
 }
 
-/// Rows of all outputs, frame by frame, written together.
+/// Returns the rows of all outputs, frame by frame, written together.
 std::vector<std::vector<double>> written(const RecoveredOutputs& outputs, const MatrixX& q, std::size_t begin = 0) {
   std::size_t size = begin;
   for (const OutputField& field : outputs.descriptions()) size += field.size();
