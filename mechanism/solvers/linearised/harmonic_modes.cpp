@@ -159,22 +159,27 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
-/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if some of these may be
-/// missing, or if there are more rigid modes than the shift in time.
+/// Returns the oscillations and decays about the mean state; nothing if some of these may be missing, or if there are
+/// more rigid modes than the shift in time. Some more than asked for are returned, as their order may change, unless
+/// the mean equations are periodic as well: a fast mode with many copies would take most of the time.
 std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& options) const {
   if (!mean_ || options.near) return std::nullopt;
-  constexpr int more = 4;  // the order of exponents may change
+  constexpr int more = 4;
   constexpr double higher = 1.05;
-  ModeOptions wider = options;
-  wider.count += more;
-  if (wider.below) *wider.below *= higher;
-  HarmonicModes mean = mean_->find(wider);
+  HarmonicModes mean = mean_->find(options);
+  const bool periodic = mean.periodicity == Periodicity::periodic;
+  if (!periodic && !mean.all) {
+    ModeOptions wider = options;
+    wider.count += more;
+    if (wider.below) *wider.below *= higher;
+    mean = mean_->find(wider);
+  }
   const auto others = std::stable_partition(mean.modes.begin(), mean.modes.end(), is_rigid);
   if (others - mean.modes.begin() != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
   mean.modes.erase(mean.modes.begin(), others);
   // Copies may hide modes of mean equations that are periodic as well.
-  const bool enough = !options.below && static_cast<int>(mean.modes.size()) >= wider.count;
-  if (mean.periodicity == Periodicity::periodic && !mean.all && !enough) return std::nullopt;
+  const bool enough = !options.below && static_cast<int>(mean.modes.size()) >= options.count;
+  if (periodic && !mean.all && !enough) return std::nullopt;
   return mean;
 }
 
