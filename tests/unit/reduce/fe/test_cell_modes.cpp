@@ -50,15 +50,15 @@ TEST_CASE("The stiffness of a cell does not depend on the node with which its li
 
 TEST_CASE("Rectangular hexahedra of order 1 have the stress of pure bending exactly") {
   // u of a beam with the curvature k in the plane of x and y, with Poisson's contraction: stress E k y along x alone.
-  const double k = 0.01, nu = 0.3;
+  const double k = 0.01, poisson = 0.3;
   const Mesh mesh = test::cell_box(CellType::hex8, cell_sides, {2, 3, 2});
   const test::SolidModel model(mesh, soft_steel);
   RowMatrix u(3 * mesh.point_count(), 1);
   std::vector<int> nodes;
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) {
     const Eigen::Vector3d x = mesh.points.col(a);
-    u.middleRows<3>(3 * a) << k * x.x() * x.y(), -k / 2 * (x.x() * x.x() + nu * (x.y() * x.y() - x.z() * x.z())),
-        -nu * k * x.y() * x.z();
+    u.middleRows<3>(3 * a) << k * x.x() * x.y(), -k / 2 * (x.x() * x.x() + poisson * (x.y() * x.y() - x.z() * x.z())),
+        -poisson * k * x.y() * x.z();
     nodes.push_back(static_cast<int>(a));
   }
   const RowMatrix stress = nodal_stress(model.solid, u, nodes);
