@@ -15,14 +15,15 @@ Vector3 centre(const State& state, const std::vector<int>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Tells an asymmetric pattern by the moment of motions out of the plane, or the force, on the hub.
+/// Tells an asymmetric pattern by the moment of motions out of the plane, or the force, on the hub. Their directions
+/// are the tangents of the blades, up to a sign that all have in common.
 const char* hub_motion(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
                        const Matrix3& standing) {
   std::complex<double> side = 0, up = 0;
   for (const BladeAmplitude& blade : blades) {
-    const Vector3 tangent = axis.cross(blade.radial), acts = out_of_plane ? Vector3(-tangent) : tangent;
-    side += standing.col(1).dot(acts) * blade.amplitude;
-    up += standing.col(2).dot(acts) * blade.amplitude;
+    const Vector3 tangent = axis.cross(blade.radial);
+    side += standing.col(1).dot(tangent) * blade.amplitude;
+    up += standing.col(2).dot(tangent) * blade.amplitude;
   }
   const double whole = std::norm(side) + std::norm(up);
   if (std::norm(side) >= mode_share * whole) return out_of_plane ? "tilt" : "horizontal";

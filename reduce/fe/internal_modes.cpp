@@ -17,7 +17,8 @@ Eigen::Matrix<double, 6, 3 * N> strain_matrix(const Eigen::Matrix<double, N, 3>&
 
 }  // namespace
 
-/// Returns the gradients of the functions in the reference cell, without their mean: (functions, 3).
+/// Returns the gradients of the functions in the reference cell, without their mean: (functions, 3). A factor on a
+/// function changes its amplitude alone, and no strain or stiffness.
 template <int N>
 typename InternalModes<N>::Gradients InternalModes<N>::local_gradients(const Eigen::Vector3d& local) {
   Gradients gradients = Gradients::Zero();

@@ -41,7 +41,7 @@ RestMoments symmetric_moments(const RestMoments& found, const RigidSplit& split)
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t l = 0; l < k; ++l) {
       const double Pk = P(static_cast<Eigen::Index>(k)), Pl = P(static_cast<Eigen::Index>(l));
-      const double weight = Pk + Pl > 0 ? Pk / (Pk + Pl) : 0.5;
+      const double weight = Pk > 0 ? Pk / (Pk + Pl) : 0;  // both zero: `linear_part` drops the moments
       result[k][l] = Eigen::RowVectorXd(weight * result[k][l] + (1 - weight) * result[l][k]);
       result[l][k] = result[k][l];
     }

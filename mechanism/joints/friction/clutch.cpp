@@ -49,10 +49,6 @@ void Clutch::declare(Declaration& declaration) const {
   declaration.event_functions[1].name = subject + " slips";
 }
 
-void Clutch::add_reaction_norm(const LocalState& /*state*/, double arm, Eigen::Ref<MatrixX> H) const {
-  H(0, 0) += coordinate().kind == JointCoordinate::Kind::displacement ? 1 : 1 / (arm * arm);
-}
-
 double Clutch::checked(double capacity, const LocalState& state) const {
   if (capacity < 0)
     throw ComputationError(

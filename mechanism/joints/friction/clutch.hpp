@@ -25,7 +25,6 @@ class Clutch final : public StickSlipFriction, public TimeDependent {
   void read(const YamlValue& formula, double factor, Model& model);
 
   void declare(Declaration& declaration) const override;
-  void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   /// Outputs along the joint's coordinates: `clutch_force`, `clutch_capacity`, `clutch_sticks` (1 if it holds).
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

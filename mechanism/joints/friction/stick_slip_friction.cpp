@@ -96,10 +96,6 @@ void StickSlipFriction::add_constraint_rates(const LocalState& state, Eigen::Ref
   acceleration[0] += this->acceleration(state);
 }
 
-void StickSlipFriction::add_reaction_norm(const LocalState& /*state*/, double /*arm*/, Eigen::Ref<MatrixX> H) const {
-  H(0, 0) += 1;
-}
-
 double StickSlipFriction::acceleration(const LocalState& state) const {
   const Slip& s = slip(state, true);
   const LocalState of_joint = state.of(0);

@@ -24,7 +24,6 @@ class StickSlipFriction : public JointFriction {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
-  void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;

@@ -60,6 +60,30 @@ TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice tha
   CHECK(found.output_units == std::vector<std::string>{"m", "m", "m/s", "m"});
 }
 
+TEST_CASE("an oscillator with delayed forces answers with the factors exp(-i w T) of its delays", "[linearised]") {
+  const double g = 80, d = 5, T = 0.03, T_d = 0.2;
+  const ModesOf model(oscillator_pushed_by("2*push - 80*late - 5*later") +
+                      "states: {late: {delayed: place, time: 0.03}, later: {delayed: speed, time: 0.2}}\n");
+  FrequencyResponseOptions options;
+  options.inputs = {{"force", *model.file.model.find_node("m"), false, Vector3::UnitX()},
+                    {"push", -1, false, Vector3::Zero()}};
+  options.outputs = {{"place", -1, false, {}}, {"late", -1, false, {}}, {"later", -1, false, {}}};
+  options.frequencies = {0, 0.5, 1.5, 1.8, 10};
+  const FrequencyResponse found = compute_frequency_response(model.session, options);
+  for (std::size_t f = 0; f < options.frequencies.size(); ++f) {
+    const double w = two_pi * options.frequencies[f];
+    const Complex iw(0, w), late = std::exp(-iw * T), later = iw * std::exp(-iw * T_d),
+                            H = 1.0 / (Complex(k - m * w * w, c * w) + g * late + d * later);
+    CAPTURE(w);
+    for (int input = 0; input < 2; ++input) {
+      const Complex place = (input == 0 ? 1.0 : 2.0) * H;
+      CHECK(std::abs(found.response[f](0, input) - place) < 1e-9 * std::abs(H));
+      CHECK(std::abs(found.response[f](1, input) - late * place) < 1e-9 * std::abs(H));
+      CHECK(std::abs(found.response[f](2, input) - later * place) < 1e-9 * (1 + w) * std::abs(H));
+    }
+  }
+}
+
 TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
   // A pendulum pushed at its bob, small motions: angle H = l/(J (w0^2 - w^2)); its pivot carries the rest.
   const ModesOf model(

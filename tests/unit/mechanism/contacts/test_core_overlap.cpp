@@ -78,3 +78,19 @@ TEST_CASE("the overlap of cores is the shortest way that parts them") {
   }
   CHECK(overlapping > 15);
 }
+
+TEST_CASE("the place of an overlap is halfway between the points of the cores nearest to the other's middle") {
+  Placed a, b;
+  a.shape.kind = b.shape.kind = ContactShape::Kind::box;
+  a.shape.rounding = b.shape.rounding = 0.1;
+  a.shape.half = Vector3::Constant(1.1);
+  b.shape.half = Vector3::Constant(0.6);
+  a.x.setZero();
+  b.x = {1.2, 0.6, 0};
+  a.R = b.R = Matrix3::Identity();
+  const auto overlap = overlap_of_cores(a.placed(), b.placed());
+  REQUIRE(overlap);
+  CHECK(overlap->depth == Approx(1 + 0.5 - 1.2));
+  CHECK((overlap->normal - Vector3::UnitX()).norm() < 1e-14);
+  CHECK((overlap->place - (Vector3(1, 0.6, 0) + Vector3(0.7, 0.1, 0)) / 2).norm() < 1e-14);
+}

@@ -36,6 +36,14 @@ struct Cloud {
 
 }  // namespace
 
+TEST_CASE("bounds are apart by the distance of their middles or from the plane, less their reaches") {
+  const NearPairs::Bound one{{1, 2, 3}, 0.5, Vector3::Zero()}, other{{4, 6, 3}, 0.25, Vector3::Zero()},
+      plane{{7, 8, 1}, std::numeric_limits<double>::infinity(), Vector3(0, 0, 1)};
+  CHECK(NearPairs::apart(one, other) == Approx(5 - 0.75));
+  CHECK(NearPairs::apart(one, plane) == Approx(2 - 0.5));
+  CHECK(NearPairs::apart(plane, one) == Approx(2 - 0.5));
+}
+
 TEST_CASE("pairs whose bounds overlap are found, along whichever axis the shapes are spread") {
   Random random(5);
   for (const Eigen::Index axis : {0, 1, 2}) {

@@ -65,3 +65,31 @@ TEST_CASE("a triangle that is listed the other way round is noticed") {
   std::swap(corners[0], corners[1]);
   CHECK(TriangleSurface(corners).flipped_edges() == 2);
 }
+
+TEST_CASE("a cube of many triangles has twelve ridges and eight tips, although its faces are rounded") {
+  constexpr int n = 3;
+  std::vector<Vector3> corners;
+  for (const int axis : {0, 1, 2})
+    for (const bool far : {false, true}) {
+      const auto point = [&](int i, int j) {
+        const bool inside = i > 0 && i < n && j > 0 && j < n;
+        Vector3 x;
+        // Single precision moves corners by up to 1e-7 out of the plane.
+        x[axis] = (far ? 1.0 : 0.0) + (inside ? 1e-7 * ((i + j) % 2 == 0 ? 1 : -1) : 0);
+        x[(axis + 1) % 3] = static_cast<double>(i) / n;
+        x[(axis + 2) % 3] = static_cast<double>(j) / n;
+        return x;
+      };
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          std::vector<Vector3> quad = {point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)};
+          if (!far) std::reverse(quad.begin(), quad.end());
+          for (const int k : {0, 1, 2, 0, 2, 3}) corners.push_back(quad[static_cast<std::size_t>(k)]);
+        }
+    }
+  const TriangleSurface surface(corners);
+  CHECK(surface.open_edges() == 0);
+  CHECK(surface.flipped_edges() == 0);
+  CHECK(surface.ridges().size() == 12);
+  CHECK(surface.tips().size() == 8);
+}

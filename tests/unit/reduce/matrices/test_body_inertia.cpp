@@ -112,3 +112,25 @@ TEST_CASE("The components add up to M~ wherever they come from") {
   const Eigen::MatrixXd sum = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
   CHECK((sum - body.mass).norm() < 1e-12 * body.mass.norm());
 }
+
+TEST_CASE("Energy of the rest without known directions is shared by all three, that with known ones is scaled") {
+  // Six rigid motions and two deformations as coordinates, with a unit mass matrix. The components tell 0.3 of the
+  // energy of the first deformation, all along x, and 0.8 of that of the second, all along y.
+  MassProperties properties;
+  properties.mass = 1;
+  properties.inertia = Eigen::Matrix3d::Identity();
+  const Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(8, 8);
+  const RigidSplit split = split_rigid(mass, properties, mass.leftCols(6));
+  std::array<Eigen::MatrixXd, 6> told;
+  told.fill(Eigen::MatrixXd::Zero(8, 8));
+  told[0](6, 6) = 0.3;
+  told[1](7, 7) = 0.8;
+  const RestInertia rest = rest_inertia(told, mass, split);
+  Eigen::MatrixXd open = Eigen::MatrixXd::Zero(8, 8);
+  open(6, 6) = 0.7;
+  CHECK((rest.open - open).norm() < 1e-12);
+  std::array<Eigen::MatrixXd, 3> expected;
+  for (std::size_t k = 0; k < 3; ++k) expected[k] = open / 3 + told[k];
+  expected[1](7, 7) = 1;
+  for (std::size_t k = 0; k < 3; ++k) CHECK((rest.components[k] - expected[k]).norm() < 1e-12);
+}

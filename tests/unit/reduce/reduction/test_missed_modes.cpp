@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include <catch2/catch.hpp>
@@ -64,7 +65,7 @@ TEST_CASE("missed modes: the pivots count the modes below any frequency, however
     default:
       requests = both_ends(Tie::rigid, Tie::average);
   }
-  const HeldModel model(test::twisted_block(), requests, 12);
+  HeldModel model(test::twisted_block(), requests, 12);
   const Eigen::VectorXd& values = model.basis.eigenvalues;
   for (Index k = 0; k + 1 < values.size(); ++k) {
     CAPTURE(k);
@@ -78,6 +79,17 @@ TEST_CASE("missed modes: the pivots count the modes below any frequency, however
   REQUIRE(count);
   CHECK(count->found == 12);
   CHECK(count->counted == 12);
+  const double shift = std::pow(2 * M_PI * count->below, 2);
+  CHECK(shift > values(11));
+  REQUIRE(model.basis.next);
+  CHECK(shift < *model.basis.next);
+  // If the next mode is not known, the count is made slightly above the last one.
+  model.basis.next.reset();
+  const std::optional<ModeCount> above = model.count();
+  REQUIRE(above);
+  CHECK(above->found == 12);
+  CHECK(std::pow(2 * M_PI * above->below, 2) > values(11));
+  CHECK(std::pow(2 * M_PI * above->below, 2) < 1.01 * values(11));
 }
 
 TEST_CASE("missed modes: one of a pair that was missed is found out", "[reduction]") {
