@@ -1,6 +1,7 @@
 """The tools on results and superelement files with damaged bytes, structures and numbers."""
 
 import copy
+import gc
 import importlib.machinery
 import importlib.util
 import os
@@ -57,6 +58,7 @@ class Results(FuzzTest):
     def setUpClass(cls):
         cls.modules = {name: module_of(name) for name in ARGUMENTS}
         plot_style.plt.rcParams.update({"figure.dpi": 15, "savefig.dpi": 15, "figure.constrained_layout.use": False})
+        gc.freeze()  # collections in the processes of the cases do not copy the pages of what is imported
 
     def setUp(self):
         super().setUp()

@@ -14,7 +14,7 @@ STI = "".join(f"{i} {j} {1.5 * i - j if i != j else 10 + i}\n" for j in range(1,
 WRITTEN = {"abaqus": ("a.mtx", {}), "matrix_input": ("a_STIF1.mtx", {}), "calculix": ("a.mtx", {}), "matrix_market": ("a_stiffness.mtx", {}),
            "npz": ("a.npz", {}), "exudyn": ("a.npz", {"interfaces": [1, 2, 3]}), "mbdyn": ("a.fem", {"interfaces": [3]}), "simscape": ("a.mat", {}),
            "fedem": ("a_S.fmx", {})}
-COUNT = int(os.environ.get("BIELLE_DAMAGES", "60"))  # damages per file
+COUNT = int(os.environ.get("BIELLE_DAMAGES", "20"))  # damages per file
 
 
 class Damage(Exchange):
@@ -33,7 +33,7 @@ class Damage(Exchange):
         return bytes(data)
 
     def attack(self, name, path, files, **given):
-        rng = random.Random(COUNT)
+        rng = random.Random(60)
         refused = 0
         for target in files:
             with open(target, "rb") as file:

@@ -16,6 +16,7 @@ sys.path[:0] = [TOOLS, os.path.join(HERE, "..")]
 from bielle_tools.manual import pages  # noqa: E402
 from python_tool import prepare_figures  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
+from shares import share  # noqa: E402
 
 COMMANDS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads",
             "bielle-exchange", "convert_mesh.py", "tools/bielle-study", "tools/verify"]
@@ -35,7 +36,7 @@ class Guide(unittest.TestCase):
         prepare_figures()
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "BIELLE_BIN": PROGRAMS, "OPENBLAS_NUM_THREADS": "1"}
-            for path in guide():
+            for path in share(guide()):
                 with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
                     os.symlink(tools, os.path.join(folder, "tools"))  # commands of the repository are called from its root
                     pages.run_page(path, folder, environment)

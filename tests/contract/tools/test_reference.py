@@ -20,6 +20,7 @@ sys.path[:0] = [TOOLS, os.path.join(HERE, "..")]
 
 from bielle_tools.manual import pages  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
+from shares import share  # noqa: E402
 
 WITHOUT_EXAMPLE = {"messages.md"}  # a page about what any run may print
 # Pages and tables of keys of states, by the key that tells their type.
@@ -58,7 +59,7 @@ class Reference(unittest.TestCase):
     def test_examples_run_and_print_what_the_pages_show(self):
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
-            for path in pages_with_examples():
+            for path in share(pages_with_examples()):
                 with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
                     pages.run_page(path, folder, environment)
 

@@ -52,19 +52,33 @@ def rod():
 
 
 class Interfaces(InFolder):
+    runs = {}  # files of rods by their interfaces: each is computed once, and copied for the test
+
     def program(self, name, *arguments):
         done = subprocess.run([os.path.join(PROGRAMS, name), *arguments], cwd=self.folder, capture_output=True, text=True, timeout=240)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def run_rod(self, interfaces="{hub: {node: 1}, middle: {node: 3}, end: {node: 5, axes: {x: [0, 0, 1], y: [0, 1, 0]}}}"):
         """@returns the path of results of a swinging rod of matrices"""
+        if interfaces not in self.runs:
+            self.compute_rod(interfaces)
+            self.runs[interfaces] = {name: self.read(name) for name in ("rod.h5", "swing.h5")}
+        for name, data in self.runs[interfaces].items():
+            with open(self.path(name), "wb") as file:
+                file.write(data)
+        return self.path("swing.h5")
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def compute_rod(self, interfaces):
         K, M = rod()
         np.savez(self.path("rod.npz"), K=K, M=M, positions=NODES, unknown_nodes=np.repeat(np.arange(1, 6), 6), unknown_components=np.tile(np.arange(6), 5))
         self.write("rod.yaml", f"body: rod\nmatrices: rod.npz\ninterfaces: {interfaces}\nmodes: {{count: 2}}\n")
         self.program("bielle-reduce", "rod.yaml", "-o", "rod.h5")
         self.write("swing.yaml", MODEL.format())
         self.program("bielle-mechanism", "swing.yaml", "--quiet")
-        return self.path("swing.h5")
 
     def scene(self, path, analysis=1):
         results = Results(path, analysis)
