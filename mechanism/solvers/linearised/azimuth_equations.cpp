@@ -179,8 +179,15 @@ class TurnedEquations {
     scale[Kind::translation] = std::max(scale[Kind::translation], rounding / balanced);
     scale[Kind::rotation] = std::max(scale[Kind::rotation], length * scale[Kind::translation]);
     scale[Kind::translation] = std::max(scale[Kind::translation], scale[Kind::rotation] / length);
+    // A force on an amplitude is compared with the others by the energies at which each deforms its own stiffness: all
+    // forces on amplitudes may be rounding as well.
+    const auto size = [&](int i) {
+      const Kind kind = system_.kind(i);
+      if (kind != Kind::amplitude || !(stiffest > 0)) return scale[kind];
+      return std::max(scale[kind], scale[Kind::translation] * std::sqrt(std::abs(K.coeff(i, i)) / stiffest));
+    };
     for (int i = 0; i < system_.dofs(); ++i)
-      if (std::abs(residual[i]) > balanced * scale[system_.kind(i)])
+      if (std::abs(residual[i]) > balanced * size(i))
         throw ComputationError(fmt::format(
             "the rotation is not steady: {} is not the same after a turn by {:.3g} degrees (it changes by "
             "{:.3g} {}): something resists or drives the part at some azimuths only",
