@@ -15,8 +15,8 @@ Vector3 centre(const State& state, const std::vector<int>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Tells an asymmetric pattern by the moment of motions out of the plane, or the force, on the hub. Their directions
-/// are the tangents of the blades, up to a sign that all have in common.
+/// Describes an asymmetric pattern by its effect on the hub: the moment of motions out of the plane, or the force of
+/// motions in it. Both have the directions of the tangents of the blades, up to a sign that all have in common.
 const char* hub_motion(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
                        const Matrix3& standing) {
   std::complex<double> side = 0, up = 0;

@@ -58,15 +58,16 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
   return options;
 }
 
-/// Fractions of the largest energy: if errors, or the scheme's dissipation, exceed them in the energy balance, the
-/// summary warns of the results.
+/// Fraction of the largest energy: the summary warns if errors, or the scheme's dissipation, exceed it in the energy
+/// balance.
 constexpr double worth_a_warning = 0.05;
-/// No scheme adds energy to a motion that its steps resolve: the summary mentions a gain above this fraction.
+/// No scheme adds energy to a motion that its steps resolve; the summary therefore mentions a gain above this fraction
+/// of the largest energy.
 constexpr double gained = 0.01;
 
-/// Returns the energy below which a change means nothing [J]: the work of the largest forces along 1e-9 of the model's
-/// size, to which Newton's method determines positions. Reactions do no work: they may have any size if joints act
-/// against each other.
+/// Returns the energy below which a change is not significant [J]: the work of the largest forces along 1e-9 of the
+/// model's size, to which Newton's method determines positions. Reactions are left out: they do no work, and may have
+/// any size if joints act against each other.
 double force_noise(const Session& session) {
   constexpr double positions = 1e-9;
   State state = session.state();
@@ -77,8 +78,8 @@ double force_noise(const Session& session) {
   return positions * (scale[Kind::translation] * model_length(state) + scale[Kind::rotation]);
 }
 
-/// Velocities that joints stop at the start are left with rounding errors of the given ones: energies below those of
-/// this part of them are not significant [J].
+/// Returns an energy below which energies are not significant [J]: velocities that joints stop at the start retain
+/// rounding errors of the given ones, which are at most this fraction of them.
 double velocity_noise(const Session& session) {
   constexpr double velocities = 1e-12;
   return velocities * velocities * session.system().energy(session.system().start(0), session.environment()).kinetic;
@@ -115,10 +116,10 @@ std::string format_events(const Motion& motion) {
 /// in a step than is stored, the error is compared with this fraction of the flow.
 constexpr double part_of_turnover = 0.1;
 
-/// The surplus of the energy balance, relative to the largest energy, stored or flowed through. A negative gap means
-/// missing energy.
+/// Surplus of the energy balance relative to the largest energy that was stored or that flowed through. A negative
+/// value means missing energy.
 struct Gap {
-  double whole, scheme;  ///< part of it that the scheme's own damping has removed
+  double whole, scheme;  ///< whole surplus; part of it due to the scheme's own dissipation
   double turnover;       ///< largest error of one turnover of the stored energy, relative to that energy
   double errors() const { return whole - scheme; }
 };
@@ -150,9 +151,9 @@ std::string judge_gap(const Gap& gap, double tolerance) {
 }
 
 /// Returns a line for the summary if the error of the balance is a considerable part of the energy that went in or was
-/// dissipated; relative to a larger stored energy the error looks small.
+/// dissipated. This error would look small relative to a larger stored energy.
 std::string judge_flow(double balance, double stored, double through) {
-  constexpr double least = 1e-3;  // fraction of the stored energy: smaller flows mean a motion without losses
+  constexpr double least = 1e-3;  // fraction of the stored energy: with smaller flows, losses are not judged
   if (through >= stored || through < least * stored || std::abs(balance) <= worth_a_warning * through) return {};
   return fmt::format("  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known better\n",
                      std::abs(balance) / through, through);

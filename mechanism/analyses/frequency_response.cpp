@@ -83,8 +83,8 @@ class SuperposedResponse {
   }
 
  private:
-  /// Throws if a rigid mode takes part in the answers: its response to forces, of 1/s^2 and 1/s, cannot be represented
-  /// by the smooth remainder.
+  /// Throws if a rigid mode takes part in the answers: its response to forces is proportional to 1/s^2 and 1/s, which
+  /// the smooth remainder cannot represent.
   void check_rigid(const ModalAccuracy& accuracy, const std::vector<Mode>& modes,
                    const std::vector<ModalPole>& poles) const {
     for (const Mode& mode : modes)
@@ -95,7 +95,7 @@ class SuperposedResponse {
                         "sum differs from the direct answer by {:.2g} of it): hold the mechanism, or leave `modes` out",
                         accuracy.frequency, accuracy.deviation));
   }
-  /// Whether an input excites the mode, and an output observes it.
+  /// Tells whether an input excites the mode and an output observes it.
   bool takes_part(const Mode& mode, const std::vector<ModalPole>& poles) const {
     constexpr double something = 1e-6;
     const int n = equations_.unknowns();

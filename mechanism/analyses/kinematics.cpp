@@ -1,6 +1,6 @@
-// Mechanisms whose motions are all driven: at each time, positions, velocities and accelerations follow from the
-// constraints alone, and from them the forces of drives and joints that cause the motion (inverse dynamics). Nothing is
-// integrated: each time is solved independently, exact to rounding.
+// Kinematics and inverse dynamics of mechanisms whose motions are all driven. At each time, positions, velocities and
+// accelerations follow from the constraints alone, and the forces of drives and joints follow from these. Nothing is
+// integrated: each time is solved independently, and exactly up to rounding.
 #include "mechanism/analyses/kinematics.hpp"
 
 #include <algorithm>
@@ -41,9 +41,10 @@ double largest_entry(const System& system, const Eigen::Ref<const VectorX>& vect
   return largest;
 }
 
-/// Whether gravity or loads act along some motions (dofs, motions).
+/// Tells whether gravity or loads act along any of these motions (dofs, motions).
 bool is_loaded(const System& system, const Environment& environment, const State& state, const MatrixX& motions) {
-  constexpr double nothing = 1e-7;  // relative to the largest force along the largest motion; motions: some 1e-9
+  // Relative to the largest force along the largest motion; motions have errors of about 1e-9.
+  constexpr double nothing = 1e-7;
   Environment statics = environment;
   statics.statics = true;
   State still = state;
@@ -59,7 +60,7 @@ bool is_loaded(const System& system, const Environment& environment, const State
   return false;
 }
 
-/// Throws if a motion is free that has to be driven.
+/// Throws if a motion that has to be driven is free.
 /// @param elastic  whether elastic parts may deform, and motions that are not loaded or determined stay at rest
 /// @returns the coordinates that describe motions which stay at rest
 std::vector<std::string> check_driven(const System& system, const Environment& environment, const State& state,
@@ -93,13 +94,13 @@ std::vector<std::string> check_driven(const System& system, const Environment& e
   return indifferent;
 }
 
-/// Whether a time is in an ascending list, up to rounding [s].
+/// Tells whether a time is in an ascending list, up to rounding [s].
 bool contains(const std::vector<double>& times, double time, double rounding) {
   const auto from = std::lower_bound(times.begin(), times.end(), time - rounding);
   return from != times.end() && *from <= time + rounding;
 }
 
-/// Refuses events that switch parts on or off: without inertia, nothing tells how the motion goes on.
+/// Refuses events that switch parts on or off: without inertia, the motion after such an event is not determined.
 void check_events(const Model& model) {
   for (const Member& member : model.members())
     if (const auto* actions = dynamic_cast<const EventActions*>(member.component.get());
@@ -136,7 +137,7 @@ class RigidPositions {
  public:
   RigidPositions(const System& system, const Environment& environment, const SoughtEfforts& efforts)
       : system_(system), environment_(environment), efforts_(efforts), saddle_(system) {}
-  /// Finds the sought efforts at a state that is not yet consistent with any.
+  /// Finds the sought efforts at a state that is not yet consistent with any efforts.
   void begin(State& state) { find_sought_efforts(efforts_, environment_, state, saddle_); }
   State operator()(const State& from, double time) {
     State next = predicted(system_, from, time);
@@ -169,14 +170,15 @@ class CrossedMotion {
   CrossedMotion(const CrossedMotion&) = delete;
   CrossedMotion& operator=(const CrossedMotion&) = delete;
 
-  /// Call it before each step. @returns the events that occur because velocities or forces have jumped
+  /// This function must be called before each step. @returns the events that occur because velocities or forces have
+  /// jumped
   std::vector<int> begin(State& state) {
     const std::vector<int> jumped = watch_.begin(state, environment_, passed_);
     if (!jumped.empty()) system_.begin_branch(state, environment_, jumped);
     return jumped;
   }
-  /// Advances a state to a time or, if an event that ends steps occurs before, to just after the event: by at most a
-  /// billionth of the step.
+  /// Advances a state to a time. If an event that ends steps occurs before this time, the state is advanced to just
+  /// after the event, by at most a billionth of the step.
   /// @param jumps  whether velocities may jump at that time
   /// @returns the events that occur, in their order
   std::vector<EventLocator::Noted> advance(State& state, double time, bool jumps) {

@@ -44,7 +44,7 @@ ModalResponse::ModalResponse(const LinearResponse& response, const std::vector<M
 void ModalResponse::add_nodes(double most) {
   for (int k = 0; k < reference_points; ++k) {
     double rate = most * std::cos((2 * k + 1) * std::numbers::pi / (4 * reference_points));
-    // Close to a mode, cancellation makes the small difference of two large numbers inaccurate.
+    // Close to a mode, the remainder is a small difference of two large numbers and therefore inaccurate.
     constexpr double too_near = 1e-2, aside = 1.03;
     for (int tries = 0; tries < 20; ++tries) {
       const bool near = std::any_of(poles_.begin(), poles_.end(),

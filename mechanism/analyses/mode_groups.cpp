@@ -12,10 +12,10 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Entries whose names differ by numbers alone, while they are gathered.
+/// A group of entries whose names differ only in numbers, while the entries are gathered.
 struct Gathered {
   ModeGroup group;
-  std::map<std::string, std::vector<int>> nodes;  ///< nodes by entries
+  std::map<std::string, std::vector<int>> nodes;  ///< nodes of each entry, by its name
 };
 
 void add_nodes(const std::vector<int>& of_member, std::vector<int>& nodes) {
@@ -44,7 +44,7 @@ void add_energies(const MemberEnergies& energies, Eigen::Index m, int softer_axi
   group.edge += softer_axis == 1 ? z : y;
 }
 
-/// Names groups whose short names are the same by their entries.
+/// Names groups after their entries if their short names are the same.
 void name_groups(const std::vector<Entry>& kinds, std::vector<ModeGroup>& groups) {
   const auto same = [&](const std::string& name) {
     return std::count_if(groups.begin(), groups.end(), [&](const ModeGroup& other) { return other.name == name; });
@@ -103,7 +103,7 @@ std::vector<ModeGroup> mode_groups(const System& system, const ModesReport& repo
     if (slots.amplitudes > 0) found.group.deformation += energies.potential.row(m).transpose().cwiseAbs();
     add_energies(energies, m, slender ? slender->softer_axis() : 0, found.group);
   }
-  // The potential energy of an entry is that of all of its members, whose parts may cancel.
+  // The potential energy of an entry is the sum over its members, whose contributions may cancel.
   std::map<Entry, VectorX> potential;
   for (std::size_t k = 0; k < members.size(); ++k) {
     const auto m = static_cast<Eigen::Index>(k);

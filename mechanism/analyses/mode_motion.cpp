@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 
 constexpr double deforms = 0.1;  // energy of deformation over kinetic energy of a part that is not named as rigid
 
-/// Sum of squares of the components of nodes' motions along a unit vector.
+/// Returns the sum of squares of the components of nodes' motions along a unit vector.
 double along(const Eigen::Matrix3Xcd& motion, const std::vector<int>& nodes, const Vector3& direction) {
   double sum = 0;
   for (const int node : nodes) sum += std::norm(direction.cast<Complex>().dot(motion.col(node)));
@@ -44,7 +44,7 @@ double size(const Eigen::Matrix3Xcd& motion, const ModeGroup& group) {
   return sum;
 }
 
-/// Returns the direction that has the share of the motion that a word needs: 0, 1 or 2; none if it is mixed.
+/// Returns the direction (0, 1 or 2) whose share of the motion is large enough for a word; none if the motion is mixed.
 std::optional<std::size_t> main_direction(const Vector3& squares) {
   Eigen::Index most = 0;
   const double largest = squares.maxCoeff(&most), sum = squares.sum();
@@ -52,7 +52,7 @@ std::optional<std::size_t> main_direction(const Vector3& squares) {
   return static_cast<std::size_t>(most);
 }
 
-/// Squares of the motion of the nodes along the axes of each node.
+/// Returns the squares of the motion of the nodes along the axes of each node.
 Vector3 in_own_axes(const Eigen::Matrix3Xcd& motion, const ModeGroup& group, const State& state) {
   Vector3 squares = Vector3::Zero();
   for (const std::vector<int>& nodes : group.nodes)
@@ -63,7 +63,7 @@ Vector3 in_own_axes(const Eigen::Matrix3Xcd& motion, const ModeGroup& group, con
   return squares;
 }
 
-/// Whether the axes of all nodes are nearly the inertial ones.
+/// Tells whether the axes of all nodes are nearly the inertial ones.
 bool stands_as_inertial(const ModeGroup& group, const State& state) {
   constexpr double nearly = 0.1;  // rad
   for (const std::vector<int>& nodes : group.nodes)
@@ -125,7 +125,8 @@ std::vector<Blade> MotionWords::blades_of(const ModeGroup& group) const {
   return turns(group) ? blades_around(axis_, group, state_) : std::vector<Blade>();
 }
 
-/// Columns: fore-aft (along the axis), side-side, vertical. Vertical is against gravity, without it along a beam.
+/// Returns the axes in columns: fore-aft (along the axis), side-side, vertical. The vertical is opposite to gravity;
+/// without gravity it is along a beam.
 std::optional<Matrix3> MotionWords::standing_axes(const ModeGroup& group) const {
   if (!report_.turning) return std::nullopt;
   Vector3 up = -report_.about.environment.gravity;
@@ -137,7 +138,8 @@ std::optional<Matrix3> MotionWords::standing_axes(const ModeGroup& group) const 
   axes.col(2) = up.normalized();
   axes.col(0) = axis_ - axes.col(2) * axes.col(2).dot(axis_);
   const double across = axes.col(0).norm();
-  constexpr double least = 0.7;  // an axis nearer to the vertical than to the horizontal has no side
+  // Side-side is not defined if the axis is nearer to the vertical than to the horizontal.
+  constexpr double least = 0.7;
   if (across < least) return std::nullopt;
   axes.col(0) /= across;
   axes.col(1) = axes.col(2).cross(axes.col(0));
@@ -228,8 +230,8 @@ ModeMotion MotionWords::rigid_motion(const ModeGroup& group, const Amplitudes& a
           ""};
 }
 
-/// The joint whose single coordinate is the whole motion of each entry that moves, because the other node of the joint
-/// rests: "about pivot". Empty if there is none.
+/// Returns words such as "about pivot" if the single coordinate of this joint is the whole motion of each entry that
+/// moves, because the other node of the joint is at rest. Returns an empty text if there is no such joint.
 std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& amplitudes) const {
   const NodeShapes& shapes = amplitudes.shapes;
   const double length = model_extent(state_);
@@ -277,7 +279,7 @@ std::string MotionWords::whirl(std::size_t mode) const {
     sense = report_.turning_whirl(system_, mode);
   else if (const auto found = whirl_of(system_, state_, report_.equations->M, report_.found.modes[mode], axis_))
     sense = *found;
-  constexpr double least = 2 * mode_share - 1;  // the difference of the shares of both senses
+  constexpr double least = 2 * mode_share - 1;  // least difference of the shares of the two senses
   return sense >= least ? "forward" : sense <= -least ? "backward" : "";
 }
 

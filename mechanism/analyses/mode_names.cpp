@@ -15,12 +15,13 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr const char* coupled = "coupled mode";       // more than two parts share it
-constexpr const char* rigid_motion = "rigid motion";  // several have no own shapes
+constexpr const char* coupled = "coupled mode";       // more than two parts share the energy
+constexpr const char* rigid_motion = "rigid motion";  // several rigid modes have no unique shapes
 
-/// Returns the part of a mode: the group whose deformation has most of the energy, otherwise the group with most of
-/// all energy, or two that have most of it together, with a third one that is equal to the second.
-/// @param one  the group, if it is one
+/// Returns the name of a mode's part: the group whose deformation has most of the energy; otherwise the group with most
+/// of all energy; otherwise the two groups that have most of it together, with a third one if its energy equals that of
+/// the second. A mode without such groups is coupled.
+/// @param one  set to the group if it is a single one
 std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, const ModeGroup*& one) {
   std::vector<const ModeGroup*> sorted;
   double whole = 0, kinetic = 0;
@@ -30,7 +31,7 @@ std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, c
     kinetic += group.kinetic[mode];
   }
   if (sorted.empty() || !(whole > 0)) return {};
-  // In the mean over a period the whole potential energy is as large as the kinetic energy.
+  // Averaged over a period, the whole potential energy equals the kinetic energy.
   for (const ModeGroup* group : sorted)
     if (group->deformation[mode] >= mode_share * kinetic && (!one || group->deformation[mode] > one->deformation[mode]))
       one = group;
@@ -42,7 +43,7 @@ std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, c
     return one->name;
   }
   if (sorted[0]->energy[mode] + sorted[1]->energy[mode] < mode_share * whole) return coupled;
-  // Equal parts are named together: rounding would decide between them.
+  // Equal parts are named together, because rounding errors would decide between them.
   constexpr double equal = 0.99;
   std::vector<std::string> names = {sorted[0]->name, sorted[1]->name};
   for (std::size_t k = 2; k < sorted.size() && sorted[k]->energy[mode] >= equal * sorted[1]->energy[mode]; ++k)
@@ -60,12 +61,12 @@ std::string ordinal(int number) {
 
 bool oscillates(const ModeName& mode) { return mode.s.imag() != 0; }
 
-/// A mode's place among those of its part with the same exponent.
+/// Place of a mode among the modes of its part with the same exponent.
 struct EqualModes {
   std::size_t set = 0, place = 0, count = 1;
 };
 
-/// Removes what shapes of equal modes do not determine.
+/// Removes the words that the shapes of equal modes do not determine.
 std::vector<EqualModes> merge_equal(std::vector<ModeName>& modes) {
   constexpr double equal = 1e-6;  // relative
   std::vector<EqualModes> places(modes.size());
@@ -106,7 +107,7 @@ std::vector<EqualModes> merge_equal(std::vector<ModeName>& modes) {
   return places;
 }
 
-/// The name without its number.
+/// Returns the name without its number.
 std::string base_name(const ModeName& mode) {
   if (mode.part.empty()) return {};
   std::string name = mode.part;
@@ -117,8 +118,8 @@ std::string base_name(const ModeName& mode) {
   return name;
 }
 
-/// The least order of a mode of blades, which have as many modes of each order as there are blades. Some of these may
-/// have mixed patterns, so that their names are others.
+/// Returns the least order of a mode of blades. There are as many modes of each order as there are blades; some of
+/// these may have mixed patterns, and therefore other names.
 int order_of_copies(const std::vector<ModeName>& modes, std::size_t k) {
   if (modes[k].copies == 1) return 1;
   int slower = 0;
@@ -129,7 +130,7 @@ int order_of_copies(const std::vector<ModeName>& modes, std::size_t k) {
   return 1 + slower / modes[k].copies;
 }
 
-/// Numbers modes of one name by rising rate; equal modes count as one.
+/// Numbers modes with the same name by rising rate; equal modes count as one.
 std::vector<int> numbers_of(const std::vector<ModeName>& modes, const std::vector<std::string>& names,
                             const std::vector<EqualModes>& equal) {
   std::vector<std::size_t> ascending(modes.size());

@@ -63,7 +63,7 @@ MemberEnergies energies_of_harmonics(const System& system, const ModesReport& re
   return sum;
 }
 
-/// Finds the modes of a mechanism of which a part turns behind a joint.
+/// Finds the modes of a mechanism with a part that turns behind a joint.
 void find_turning_modes(const System& system, const ModesOptions& options, ModesReport& report) {
   const SteadyRotation& rotation = *options.rotation;
   const State& state = report.about.state;

@@ -28,9 +28,9 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
   response_ = std::make_unique<SteadyResponse>(system, about_.state, about_.environment, equations_);
 }
 
-/// The slowest modes tell how many harmonics a motion has about that of its standing part. A force on a turning node,
-/// of the harmonics +-1 in turning axes, moves the standing part at the harmonics up to +-2; so may an input of the
-/// model.
+/// The slowest modes determine the number of harmonics of a motion, counted from the harmonic at which the standing
+/// part moves. A force on a turning node has the harmonics +-1 in turning axes, and moves the standing part at the
+/// harmonics up to +-2; an input of the model may do so too.
 void ResponseEquations::make_turning(const System& system, const std::vector<ResponseInput>& inputs) {
   ModeOptions slow;
   slow.count = 10;

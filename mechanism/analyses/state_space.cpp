@@ -83,7 +83,7 @@ class StateSpaceBuilder {
   /// Computes the response from the original equations.
   MatrixXc exact(const ShiftedOperator& D) const { return response_.at(D, options_.inputs, options_.outputs, rights_); }
 
-  /// Compares the response at a second point: it differs if an output depends on derivatives of an input.
+  /// Compares the responses at a second point; they differ if an output depends on derivatives of an input.
   void check(const StateSpace& found) const {
     const double s = 2.3 * T_.shift().real();
     const ShiftedOperator D(e_, s);

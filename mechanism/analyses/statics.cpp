@@ -98,7 +98,7 @@ StaticsReport compute_statics(Session& session, const StaticsOptions& options) {
   const LoadRamp ramp(system, statics, session.loaded());
   system.begin_motion(state, statics, false);
   if (!computation.started()) {
-    ramp.set_off(state);  // drives and supports start at the position at which the load factor begins
+    ramp.set_off(state);  // drives and supports start at their positions for the first load factor
     assemble_positions(system, session.environment(), state, report.start, conditions);
     computation.set_started();
   }

@@ -57,7 +57,7 @@ std::string format_carried(const CarriedPart& part) {
   return text + "\n";
 }
 
-/// Describes the axes of small motions about a state, and its lack of balance.
+/// Describes the axes of small motions about a state, and the unbalance of this state.
 std::string format_axes(const LinearisedSetting& setting, const char* what) {
   constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
   if (!setting.steadiness)

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int least_azimuths = 8;  // coefficients about the mean state have up to three harmonics
 
-/// Exponents s and s + i rate of a slow rotation are nearly the same: harmonics of one motion cannot be told apart.
+/// Tells whether a rotation is so slow that the exponents s and s + i rate are nearly the same. The harmonics of one
+/// motion cannot be distinguished then.
 bool is_negligible(const System& system, const StandingState& about, const TurningPart& part, double rate) {
   if (rate == 0) return true;
   constexpr double share = 1e-6, rounding = 1e-5;
@@ -26,7 +27,7 @@ bool is_negligible(const System& system, const StandingState& about, const Turni
   double fastest = 0;
   for (const Mode& mode : found.modes) fastest = std::max(fastest, std::abs(mode.s));
   if (std::abs(rate) >= share * fastest) return false;
-  // Free turning is a double zero, which rounding moves.
+  // A part that turns freely has a double zero exponent, which rounding errors split.
   return std::all_of(found.modes.begin(), found.modes.end(), [&](const Mode& mode) {
     return std::abs(mode.s) <= rounding * fastest || std::abs(rate) < share * std::abs(mode.s);
   });

@@ -5,8 +5,9 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Inputs and outputs have up to three harmonics, as coefficients have, and those of the motion: the means of their
-/// products with the functions e_p and the unknowns are exact.
+/// Returns the number of azimuths at which the means of products of the functions e_p, the unknowns, and inputs or
+/// outputs are exact. Inputs and outputs have up to three harmonics, as coefficients have, in addition to those of the
+/// motion.
 int azimuths_for(int harmonics, const TurningEquations& turning) {
   return 2 * (harmonics + 4 + (turning.orbit ? turning.orbit->deviation.harmonics : 0));
 }
@@ -39,7 +40,7 @@ VectorX TurningResponse::right_side(const ResponseInput& input) const {
       right.segment(N + p * m, m) += weight * gaps;
     }
   }
-  // Sums of a whole turn that are rounding would be inputs of harmonics that do not exist.
+  // Sums over a whole turn that are only rounding errors would be inputs of harmonics that do not exist.
   constexpr double rounding = 1e-14;
   const double most = right.cwiseAbs().maxCoeff();
   return right.unaryExpr([=](double value) { return std::abs(value) > rounding * most ? value : 0.0; });

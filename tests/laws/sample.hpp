@@ -29,13 +29,13 @@ struct Scales {
   double first_order = 1;    ///< range of first-order unknowns: random within start +- this
   double multiplier = 1;     ///< [N], [N m]
   /// Forces vary over this share of the scales of length and of a radian (near corners and edges at which the contact
-  /// changes): differences use smaller steps accordingly.
+  /// changes). Differences use smaller steps accordingly.
   double smooth_within = 1;
   /// Forces have a kink in the unloaded state: the laws are checked away from it.
   bool kinks_unloaded = false;
 };
 
-/// Terms that a type leaves out of its tangents. With w the largest rate [1/s] of a state and M its largest mass,
+/// Size of terms that a type omits in its tangents. With w the largest rate [1/s] of a state and M its largest mass,
 /// entries may be wrong by K w^2 M in the stiffness and C w M in the damping; at rest nothing may be missing.
 struct Neglected {
   double K = 0, C = 0;
@@ -52,7 +52,7 @@ struct Sample {
   bool has_no_power = false;  ///< keeps no account of energy, with the reason in a comment at the sample
   Neglected neglected{};
   std::function<void(const std::string& folder)> files{};  ///< writes files that the model refers to
-  std::string place{};  ///< the map that holds `it`, where it is not the section: "hydraulics.lines"
+  std::string place{};  ///< the map that holds `it`, if this is not the section: "hydraulics.lines"
 };
 
 const std::vector<Sample>& samples();

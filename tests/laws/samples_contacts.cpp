@@ -186,7 +186,7 @@ std::vector<Sample> contact_samples() {
                "shapes: [{node: a, box: [3, 1.6, 1.6], rounding: 0.7, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, {node: "
                "b, box: [1.6, 3, 1.6], rounding: 0.7, axes: {x: [1, 0, 1], y: [0, 1, 0]}}]",
                {}));
-  // The damping follows from the speed at which the shapes touch; there is none before that.
+  // The damping follows from the speed at which the shapes touch; there is no damping before that.
   list.push_back(
       touching("restitution, groups",
                "between: [[{node: a, sphere: 0.9}, {node: a, sphere: 1, at: [1, 0, 0]}], [{node: b, sphere: 1}, "

@@ -44,7 +44,7 @@ Sample mesh(const std::string& variant, const std::string& keys, std::vector<Bad
                 "  it: {type: gear_mesh, nodes: [a, b], " +
                     keys + "}\n",
                 std::move(bad)};
-  sample.scales.kinks_unloaded = true;  // teeth push to either side, and apart
+  sample.scales.kinks_unloaded = true;  // teeth push to both sides, and apart
   return sample;
 }
 

@@ -102,7 +102,7 @@ std::vector<Sample> motors() {
                            "motor: {coordinate: displacement, voltage: \"t - axle.angle\", resistance: 0.7, "
                            "torque_constant: 0.6}",
                            {{"motor.coordinate", "", "several coordinates"}}));
-  list.back().has_no_power = true;  // in random states the current is not that of its algebraic equation
+  list.back().has_no_power = true;  // in random states the current does not satisfy its algebraic equation
   return list;
 }
 
@@ -119,7 +119,7 @@ std::vector<Sample> drive_samples() {
   Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
   of_state.inertial = true;
   list.push_back(of_state);
-  // Orientations are relative to the inertial axes: turned as a whole, the model has other ones.
+  // Orientations are relative to the inertial axes; they change if the model is rotated as a whole.
   Sample of_orientation =
       drive("hinge", "torque",
             "2 + a.rotation_vector.x*b.rotation_vector.y.rate + b.bryant.a + a.bryant.b.rate - "

@@ -23,7 +23,7 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
                     type + ", nodes: [a, b], position: [0.5, 0.2, 0.1], " + keys + second_axis + ", friction: {" +
                     friction + "}}\n",
                 std::move(bad)};
-  sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| where they vanish
+  sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| have kinks at zero
   sample.scales.smooth_within = 0.25;   // on the way there
   return sample;
 }

@@ -1,4 +1,4 @@
-// Samples of joints that are no lower pairs: universal and constant-velocity joints, screws, links, guided points,
+// Samples of joints that are not lower pairs: universal and constant-velocity joints, screws, links, guided points,
 // wheels.
 #include <fstream>
 

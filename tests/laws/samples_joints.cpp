@@ -94,7 +94,7 @@ std::vector<Sample> joint_samples() {
                        "events:\n  there: {when: it.angle, crosses: 1}\n  back: {when: it.angle, crosses: 0.5, do: "
                        "[{lock: it}, {activate: it}]}\n"),
                   {{"locked.from", "{event: the}", "no 'the' among the events"}}});
-  // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
+  // A point and axes in each node's own axes; and a start, whose values and rates are conditions, not components.
   list.push_back(
       {Section::joints,
        "hinge",

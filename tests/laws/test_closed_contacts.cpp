@@ -1,5 +1,4 @@
-// Tangent and power of contacts that are closed: the laws test them as they begin, this test with the memory of a
-// contact.
+// Tangent and power of closed contacts: the laws test contacts as they begin, this test with the memory of a contact.
 #include <string>
 #include <utility>
 #include <vector>

@@ -36,7 +36,7 @@ TEST_CASE("law 4: reactions are the transposed gradients of the constraints, and
           const bool holonomic = dense.constraint_kind(k) == ConstraintKind::holonomic;
           const VectorX B = (holonomic ? K : C).row(begin + k).head(dofs).transpose();
           CHECK((K.col(begin + k).head(dofs) - B).cwiseAbs().maxCoeff() <= 1e-14 * B.cwiseAbs().maxCoeff());
-          // See finite_difference.hpp: 1e-12 of the size of the rows.
+          // Accuracy of differences: 1e-12 of the size of the rows (finite_difference.hpp).
           const double size = B.cwiseAbs().maxCoeff() * subject.scales.length * (1 + subject.scales.rate);
           CHECK_THAT(velocity[k], Catch::WithinAbs(holonomic ? Phi_rate[k] : Phi[k], 1e-11 * size));
           CHECK_THAT(acceleration[k], Catch::WithinAbs(second[k], 1e-11 * size * (1 + subject.scales.rate)));

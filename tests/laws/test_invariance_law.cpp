@@ -1,5 +1,5 @@
-// Law 2: a rigid motion of the whole model turns the forces with it and leaves energies; a uniform velocity changes no
-// force.
+// Law 2: a rigid motion of the whole model rotates the forces with it and does not change energies; a uniform velocity
+// changes no force.
 #include <catch2/catch.hpp>
 
 #include "tests/laws/subject.hpp"

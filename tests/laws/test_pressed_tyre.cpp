@@ -22,7 +22,7 @@ TEST_CASE("the tangent of a tyre in partial and in full sliding is the derivativ
         const VectorX r = dense.residual(state);
         (push < 1 ? full : partial) += r.head(12).norm() > 0 ? 1 : 0;
         const MatrixX K = dense.tangent(state, DenseModel::Part::K), C = dense.tangent(state, DenseModel::Part::C);
-        // Each unknown by itself, along positions and along rates.
+        // Each unknown is changed by itself, along positions and along rates.
         double wrong_K = 0, wrong_C = 0;
         for (int k = 0; k < 12; ++k) {
           VectorX by_position = VectorX::Zero(dense.size()), by_rate = by_position;
@@ -41,7 +41,7 @@ TEST_CASE("the tangent of a tyre in partial and in full sliding is the derivativ
         // Central differences: h^2 times third derivatives of a force that varies over slips of order one.
         CHECK(wrong_K < 1e-3 * (1 + K.cwiseAbs().maxCoeff()));
         CHECK(wrong_C < 1e-3 * (1 + C.cwiseAbs().maxCoeff()));
-        // The derivative by the push, in which the force is smooth.
+        // Derivative with respect to the push, in which the force is smooth.
         VectorX by_push = VectorX::Zero(dense.size());
         for (const double h : {1e-4, -1e-4}) {
           State pushed = state;

@@ -41,7 +41,7 @@ TEST_CASE("damped ropes that slip have the tangents of their forces") {
         const int first = dense.first_order_begin(), count = dense.multiplier_begin() - first;
         const VectorX rows = dense.residual(state).segment(first, count);
         if (rows.isZero(0)) {
-          ++sections;  // they leave the equation of the slip to the friction
+          ++sections;  // the friction provides their equation of the slip
           continue;
         }
         Eigen::Index row = 0;

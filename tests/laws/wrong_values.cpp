@@ -151,7 +151,7 @@ std::vector<ShownKey> shown_keys(const KeyForms& forms, const YamlNode& value) {
 
 std::vector<WrongValue> wrong_values(const Key& key, const YamlNode& shown) {
   std::vector<WrongValue> values;
-  // Other forms than the one that the sample shows may be wrong here for another reason.
+  // Forms other than the one that the sample shows may be wrong here for another reason.
   for (const KeyForm& form : key.forms)
     if (is_of_form(form, shown)) add_wrong_values(form, shown, values);
   const auto allowed = [&](const WrongValue& wrong) { return is_allowed(key.forms, *parse_yaml(wrong.text, "value")); };

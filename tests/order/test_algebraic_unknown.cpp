@@ -160,7 +160,7 @@ TEST_CASE(
     // Newton's tolerance, 1e-9 of the forces, adds up over the steps.
     CHECK(x_error < 1e-9);
     CHECK(lambda_error < 1e-7);
-    // Corrected velocities are not those of the step's equations: h^2 B c of some m/s.
+    // Corrected velocities differ from those of the step's equations, by h^2 B c of some m/s.
     CHECK(y_error < (each.form == ConstraintForm::corrected ? 1e-7 : 1e-11));
   }
 }

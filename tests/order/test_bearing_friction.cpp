@@ -89,7 +89,7 @@ TEST_CASE("friction on a bearing's reaction is of order 2 in the three forms, in
           errors[1] = std::max(errors[1], (bob.v - l * z[1] * tangential).norm());
           errors[2] = std::max(errors[2], (bearing_force(model, state) - solve(z).force).norm());
         }
-        // Quadratic: from errors of h^2 or so to 1e-9 in two or three.
+        // Convergence is quadratic: two or three iterations reduce errors of about h^2 to 1e-9.
         CHECK(most <= 3);
         return errors;
       });

@@ -175,7 +175,7 @@ TEST_CASE(
           Motion motion = session.dynamics(options);
           REQUIRE(motion.finish());
           INFO(drive << beyond << ", " << action << ", h = " << h);
-          CHECK(worst < std::pow(15.7 * h, 2) / 2);  // the same without the event: 0.34 (omega h)^2 driven, 0.08 free
+          CHECK(worst < std::pow(15.7 * h, 2) / 2);  // without the event: 0.34 (omega h)^2 driven, 0.08 free
           REQUIRE(events.size() == 1);
           CHECK(events[0].time == Approx(0.1).margin(2e-5 / 7.85 + 0.1 * std::pow(15.7 * h, 2) / 4).epsilon(0));
         }

@@ -92,7 +92,7 @@ TEST_CASE("a gear between coordinates of two joints, declared before them, is of
           model.system->residual(state, model.model.environment, r);
           row = std::max(row, std::abs(r[model.system->dofs()]));
         }
-        CHECK(row < 1e-9);  // Newton's tolerance, of an angle of some radians
+        CHECK(row < 1e-9);  // Newton's tolerance, relative to an angle of some radians
         return errors;
       });
 }

@@ -1,7 +1,7 @@
 // The pendulum as an index-3 problem: m = 1 kg, L = 1 m, g = 9.81 m/s^2, released at rest from the horizontal. Errors
 // at t = 1 s of another implementation (tests/references/index_three.py: two unknowns, one constraint (x^2 + y^2 -
-// 1)/2, A_0 = a_0) against the closed form. The body's rotation, which that one has not, carries no inertia here and
-// changes nothing.
+// 1)/2, A_0 = a_0) against the closed form. The body's rotation, which that implementation does not have, carries no
+// inertia here and changes nothing.
 #include <catch2/catch.hpp>
 
 #include "tests/support/reference_table.hpp"
@@ -34,7 +34,7 @@ joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [
   const Eigen::Vector2d exact = bielle::test::ReferenceTable("simple_pendulum").plane("1");
   const Vector3 x(-exact.x(), exact.y(), 0);
   const double speed = std::sqrt(2 * 9.81 * -x.y()), tension = 3 * 9.81 * -x.y();
-  // On its first way to the other side it moves along (y, -x).
+  // On its first way to the other side, the bob moves along (y, -x).
   const Vector3 v = speed * Vector3(x.y(), -x.x(), 0);
   return {(bob.x - x).norm(), (bob.v - v).norm(), std::abs(state.multiplier.head<3>().norm() - tension)};
 }

@@ -113,7 +113,7 @@ TEST_CASE("a disturbance along a constraint decays with the roots of the index-3
       CHECK(std::abs(rest) < 1e-8 * std::abs(e[0]));
     }
   }
-  // Newmark's double root has one eigenvector only: the error even grows, in proportion to the number of steps.
+  // Newmark's double root has only one eigenvector: the error even grows, in proportion to the number of steps.
   const std::vector<double> newmark = driven_errors(Scheme::newmark(), 200);
   CHECK(newmark[199] / newmark[1] == Approx(100).epsilon(1e-6));
   CHECK(newmark[199] * newmark[198] < 0);

@@ -78,7 +78,7 @@ joints: {pin: {type: spherical, nodes: [ground, m], position: [0, 0, 0]}}
   try {
     unstable = worst(ConstraintForm::position);
   } catch (const bielle::ComputationError&) {
-    unstable = 1e9;  // it may not come to the end
+    unstable = 1e9;  // the run may fail before its end
   }
   CHECK(unstable > 1);
 }

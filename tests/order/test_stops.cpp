@@ -24,7 +24,7 @@ joints: {path: {type: prismatic, nodes: [ground, ball], axis: [0, 0, -1], stops:
 )yaml";
 Bounce fall() { return {0.3, 9.81, std::sqrt(1800 / 2.0), 12 / 2.0 / 2}; }
 
-/// The same model about an axle that holds the body off its centre: J = 0.5 + 2 0.6^2, and reactions that turn.
+/// The same model with a hinge at a distance from the body's centre: J = 0.5 + 2 0.6^2, and reactions that turn.
 const std::string turning = R"yaml(
 nodes: {arm: {position: [0.6, 0, 0]}}
 elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.3, 0.3, 0.5]}}
@@ -158,7 +158,7 @@ TEST_CASE("what rests on a stop when the motion begins stays in contact") {
   const double end = 0.5, h = 2.5e-4;
   const Ran ran = run(text, steps_of(end, h));
   const double size = 9.81 / 900;
-  // (omega h)^2/12 of the phase 15 is 7e-5.
+  // The phase of 15 has an error of (omega h)^2/12, or 7e-5.
   CHECK(ran.end.q == Approx(size * (1 - std::cos(30 * end))).margin(2e-4 * size));
 }
 

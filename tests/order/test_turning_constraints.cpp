@@ -54,7 +54,7 @@ TEST_CASE("in the plain form of index 3 errors of a turning constraint grow as i
     INFO("rho = " << row.rho << ", inertia " << row.inertia << ", " << row.turn << " rad per step: " << growth);
     CHECK(growth > 1.01);
     const std::vector<double> force = pull(rotor(row.inertia), scheme, ConstraintForm::position, row.turn, 180);
-    // With the inertia of 1 the root is a pair of complex ones: windows hold several periods, a ripple remains.
+    // With an inertia of 1 the root is a complex pair. Windows hold several periods, but a ripple remains.
     const double found = std::pow(alternation(force, 140, 35) / alternation(force, 40, 35), 1.0 / 100);
     CHECK(found == Approx(growth).margin(row.inertia == 1 ? 4e-3 : 1e-3));
   }
@@ -158,7 +158,8 @@ TEST_CASE("a run says when its joints turn too far in a step") {
 
 TEST_CASE("positions fall behind by what a run says, and not where a body turns and its path does not bend") {
   for (const double inertia : {0.01, 1.0, 4.0}) {
-    const double turn = 0.5, share = 1 / (1 + inertia);  // share of the kinetic energy that goes around
+    // Share of the kinetic energy that belongs to the circular motion.
+    const double turn = 0.5, share = 1 / (1 + inertia);
     const Scheme scheme = Scheme::generalized_alpha(0.8);
     const ReadyModel model = rotor(inertia);
     TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
@@ -173,7 +174,7 @@ TEST_CASE("positions fall behind by what a run says, and not where a body turns 
     }
     const double behind = 1 - angle / (steps * turn), said = -scheme.position_error() * turn * turn * share;
     INFO(inertia << ": behind by " << behind << ", " << said << " said: " << integration.caution());
-    CHECK(behind > said);  // the rest is lost in the first steps
+    CHECK(behind > said);  // the remaining part is lost in the first steps
     CHECK(behind < 2 * said);
     CHECK(integration.caution().empty() == (said < 0.01));
   }

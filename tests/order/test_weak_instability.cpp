@@ -1,4 +1,5 @@
-// Newmark's trapezoidal rule on a constrained system is weakly unstable whatever the step; dissipation cures it.
+// Newmark's trapezoidal rule on a constrained system is weakly unstable for any step; dissipation removes this
+// instability.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run_model.hpp"

@@ -60,7 +60,7 @@ class TurnedEquations {
       rows.setIdentity();
       return {std::move(turned), std::move(here), std::move(axes), std::move(rows)};
     }
-    // Multipliers keep their forces in the combined rows.
+    // The multipliers of the combined rows are chosen such that the forces stay the same.
     const LinearisedEquations before =
         linearised_equations(system_, turned, ModeAxes::turning, forces_.matrices(turned), residual);
     Sparse rows = combined_rows(Sparse((before.B * axes).transpose()));
@@ -111,7 +111,7 @@ class TurnedEquations {
     return axes;
   }
 
-  /// Returns the entries of a member's rows at turning unknowns that are in any of two matrices.
+  /// Returns the entries of a member's rows in columns of turning unknowns.
   MatrixX turning_entries(const Sparse& transposed, const MemberRows& rows, const std::vector<int>& columns) const {
     MatrixX entries(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -171,7 +171,7 @@ class TurnedEquations {
     VectorX unused(system_.size());
     forces_.residual(turned, unused, &scale);
     constexpr double balanced = 1e-6;  // relative to the largest force: equilibria are found to 1e-9
-    // If all forces of a kind are rounding, those of the other kind are their measure.
+    // If all forces of a kind are rounding errors, they are judged relative to the forces of the other kind.
     const double length = model_length(turned);
     double stiffest = 0;
     for (Eigen::Index k = 0; k < K.nonZeros(); ++k) stiffest = std::max(stiffest, std::abs(K.valuePtr()[k]));

@@ -17,8 +17,7 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 
-/// The eigenpairs are those of the operator on the orthogonal complement of Q, in coordinates of the basis if one is
-/// given.
+/// Finds eigenpairs of the operator on the orthogonal complement of Q, in coordinates of the basis if one is given.
 template <class Scalar>
 OperatorEigenpairs search_complement(const ShiftedOperator& T, const MatrixX& Q, const MatrixX* basis,
                                      Eigen::Index count, const OperatorEigenOptions& options) {
@@ -60,7 +59,7 @@ bool EigenpairsAround::dense() const {
 void EigenpairsAround::set_shift(Complex shift) {
   constexpr double factors[] = {1, 1.0137, 13.7, 1370, 1.37e5};
   for (const double factor : factors) {
-    if (factor > 2 && shift.real() == 0) break;  // a frequency that was requested
+    if (factor > 2 && shift.real() == 0) break;  // an imaginary shift is a requested frequency
     operator_ = std::make_unique<ShiftedOperator>(e_, factor * shift);
     if (operator_->regular()) break;
   }
@@ -78,8 +77,8 @@ void EigenpairsAround::set_shift(Complex shift) {
     basis_ = (basis_ * null_space(MatrixX(Q_.transpose() * basis_), dependent)).eval();
 }
 
-/// The eigenvector is recovered from its part z outside of the known states Q. If the known states have the eigenvalue
-/// as well, and there is only one vector for both, the result is that vector.
+/// Recovers the eigenvector from its part z outside of the known states Q. If the known states have this eigenvalue
+/// too, and both share a single vector, the result is that vector.
 VectorXc EigenpairsAround::recovered(Complex mu, const VectorXc& z) const {
   if (Q_.cols() == 0) return z;
   const VectorXc coupled = Q_.transpose().cast<Complex>() * operator_->apply(z);
@@ -101,9 +100,10 @@ VectorXc EigenpairsAround::recovered(Complex mu, const VectorXc& z) const {
   return own.norm() > 0 ? VectorXc(own / own.norm()) : z;
 }
 
-/// Makes real eigenvalues real, which rounding errors make complex: a real operator shows copies of a multiple one as
-/// conjugate pairs, a complex operator has complex multiples of their vectors. They get real vectors of the same space,
-/// unless these are no eigenvectors: a double eigenvalue may have a single one.
+/// Makes eigenvalues real that only rounding errors make complex. With a real operator, copies of a multiple real
+/// eigenvalue appear as conjugate pairs; with a complex operator, vectors are complex multiples of real ones. These
+/// eigenvalues get real vectors of the same space, unless the vectors are not eigenvectors: a double eigenvalue may
+/// have a single one.
 void EigenpairsAround::make_real(std::vector<Eigenpair>& pairs) const {
   constexpr double rounding = 1e-9, accurate = 1e-6;
   const auto is_real = [](Complex s) { return std::abs(s.imag()) <= rounding * std::abs(s); };

@@ -10,7 +10,8 @@ namespace {
 
 using Sparse = LinearisedEquations::Sparse;
 
-/// Whether A^T = sign A, for each entry relative to the diagonal, or to the whole matrix if that is zero.
+/// Tells whether A^T = sign A. Each entry is compared relative to the diagonal, or to the whole matrix if the diagonal
+/// is zero.
 bool is_own_transpose(const Sparse& A, double sign, const VectorX& sizes) {
   constexpr double rounding = 1e-9;
   const Sparse difference = A - Sparse(sign * Sparse(A.transpose()));
@@ -20,7 +21,7 @@ bool is_own_transpose(const Sparse& A, double sign, const VectorX& sizes) {
   return true;
 }
 
-/// Square roots of the sizes of rows and columns: a_ij is compared with s_i s_j.
+/// Returns the square roots of the sizes of rows and columns; a_ij is compared with s_i s_j.
 VectorX roots_of_rows(const Sparse& A) {
   VectorX most = VectorX::Zero(A.rows());
   for (int j = 0; j < A.outerSize(); ++j)

@@ -36,7 +36,7 @@ void turning_axes(const System& system, const State& state, ModeAxes axes, Spars
     if (freedom.count == 0) continue;
     const NodeState& node = state.nodes[k];
     const int translations = freedom.count - freedom.rotations;
-    // About a single axis, dTheta and Omega are parallel: both terms vanish.
+    // With a single axis of rotation, dTheta and Omega are parallel, and both terms vanish.
     const bool turns = freedom.rotations == 3;
     if (axes == ModeAxes::inertial) {
       if (turns) add_block(z, freedom.begin + translations, -skew(node.Omega));

@@ -34,7 +34,7 @@ MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
 
 namespace {
 
-/// Whether every motion that the constraints allow has inertia, relative to that of its unknowns.
+/// Tells whether every motion that the constraints allow has inertia, relative to that of its unknowns.
 bool all_has_inertia(const LinearisedEquations& e, const VectorX& scale) {
   if (e.unknowns() != e.dofs) return false;
   constexpr double dependent = 1e-11, rounding = 1e-12;
@@ -53,8 +53,8 @@ bool all_has_inertia(const LinearisedEquations& e, const VectorX& scale) {
 
 Eigen::Index count_finite_eigenvalues(const LinearisedEquations& equations, const ShiftedOperator& T) {
   if (all_has_inertia(equations, T.scale())) return consistent_states(equations, T.scale()).cols();
-  // Eigenvalues far from the shift seem infinite: a shift in the middle between the slowest and the fastest shows most
-  // of them.
+  // Eigenvalues far from the shift appear infinite. A shift midway between the slowest and the fastest shows most of
+  // them.
   Eigen::Index most = T.is_real() ? FiniteStates(equations, T).size() : 0;
   const ShiftedOperator middle(equations, std::sqrt(slowest_rate(equations) * fastest_rate(equations)));
   if (middle.regular()) most = std::max(most, FiniteStates(equations, middle).size());

@@ -38,7 +38,8 @@ MatrixX find_free_shapes(const LinearisedEquations& e, const ShiftedOperator& sh
     const VectorX right = resistance_times(e, shift, u);
     return VectorX(shifted.solve(right.cast<std::complex<double>>()).head(n).real().cwiseQuotient(scale));
   };
-  constexpr int rounds = 100, separated = 60;  // others are halved each time, for this size of the shift
+  // With this size of the shift, each round halves the parts of other shapes.
+  constexpr int rounds = 100, separated = 60;
   constexpr double stays = 1e-8, settled = 1e-22, leaves = 1e-3;  // squares of changes
   SymmetricEigenpairs change;
   for (int round = 0; round < rounds; ++round) {

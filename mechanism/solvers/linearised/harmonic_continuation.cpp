@@ -54,7 +54,7 @@ void improve(const LinearisedEquations& equations, double rate, std::unique_ptr<
   if (near->regular()) iterate(equations, *near, rate, mode);
 }
 
-/// Improves a mode as far as shifts that follow its exponent do.
+/// Improves a mode repeatedly, with shifts that follow its exponent.
 void improve_well(const LinearisedEquations& equations, double rate, std::unique_ptr<ShiftedOperator>& near,
                   Mode& mode) {
   constexpr int most = 4;

@@ -12,7 +12,7 @@ namespace {
 using Sparse = LinearisedEquations::Sparse;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-/// The function f_p.
+/// Returns the function f_p at an azimuth.
 double harmonic_function(int p, double psi) {
   const int m = (p + 1) / 2;
   return p == 0 ? 1 : p % 2 == 1 ? std::cos(m * psi) : std::sin(m * psi);
@@ -49,7 +49,7 @@ struct EntrySizes {
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = 0; j < 2; ++j) most[i][j] = std::max(most[i][j], factor * other.most[i][j]);
   }
-  /// Calculates the rounding of the largest entries as it appears in the others over lever arms.
+  /// Calculates the rounding errors that the largest entries cause in the others by lever arms.
   /// @param row,column  scales of both kinds: 1 and the mechanism's length, or 1 and 1
   void calc_rounding(const std::array<double, 2>& row, const std::array<double, 2>& column) {
     constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
@@ -80,8 +80,8 @@ std::vector<const Sparse*> list_of(const std::vector<LinearisedEquations>& azimu
   return list;
 }
 
-/// Computes the coefficients; those that rounding alone makes are left out. @param resolved  set to false if the last
-/// of them is not negligible
+/// Computes the coefficients, without those that are only rounding errors. @param resolved  set to false if the last of
+/// them is not negligible
 HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& sizes, bool& resolved) {
   const auto count = static_cast<int>(A.size());
   constexpr double rounding = 1e-12, rapid = 1e-8;

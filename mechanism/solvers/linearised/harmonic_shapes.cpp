@@ -7,17 +7,17 @@ namespace bielle::mechanism {
 
 namespace {
 
-constexpr double copied = 0.9;  // a copy lacks harmonics that are left out
+constexpr double copied = 0.9;  // less than 1 because copies lack the truncated harmonics
 
 }  // namespace
 
 int HarmonicSizes::largest() const {
-  constexpr double moves = 1e-9, equal = 0.1;  // harmonics that are left out make equal ones differ
+  constexpr double moves = 1e-9, equal = 0.1;  // equal harmonics differ because others are truncated
   const VectorX& deciding = standing.sum() > moves * turning.sum() ? standing : turning;
   const Eigen::Index middle = deciding.size() / 2;
   Eigen::Index place = middle;
   const double most = deciding.maxCoeff(&place);
-  if (!(most > 0)) return 1;  // nothing moves: no exponent is the principal one
+  if (!(most > 0)) return 1;  // without motion, no exponent is the principal one
   return deciding[middle] >= (1 - equal) * most ? 0 : static_cast<int>(place - middle);
 }
 
@@ -52,7 +52,7 @@ double HarmonicShapes::whirl(const HarmonicSizes& sizes) const {
   const Eigen::Index h = sizes.turning.size() / 2;
   const double whole = sizes.turning.sum();
   if (h == 0 || !(whole > 0)) return NAN;
-  // A pattern that runs around forwards has a frequency less by the rate in axes that turn.
+  // In turning axes, the frequency of a forward pattern is lower by the rate.
   const double less = sizes.turning[h - 1], more = sizes.turning[h + 1];
   constexpr double least = 0.1;
   if (!(less + more > least * whole)) return NAN;

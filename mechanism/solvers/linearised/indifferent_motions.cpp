@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 
-/// Returns numbers of either sign, the same in every run.
+/// Returns numbers of both signs, the same in every run.
 VectorX signs(Eigen::Index size) {
   VectorX result(size);
   for (Eigen::Index i = 0; i < size; ++i) result[i] = std::sin(1.0 + 2.399963 * static_cast<double>(i)) < 0 ? -1 : 1;
@@ -108,7 +108,7 @@ class IndifferentSearch {
   struct Soft {
     MatrixX basis;         ///< basis of scaled vectors with eigenvalues near 1
     double others = 0;     ///< the largest other eigenvalue
-    bool crowded = false;  ///< there are more than requested
+    bool crowded = false;  ///< there are more than were requested
   };
   template <class Apply>
   Soft soft_ones(const Apply& apply, bool whatever) const {
@@ -148,7 +148,7 @@ class IndifferentSearch {
     }
   }
 
-  /// @returns false if so many are slow relative to the rate that another one is better
+  /// @returns false if so many motions are slow relative to the rate that another rate is better
   bool find_soft(bool whatever) {
     Soft right = soft_ones([&](const VectorX& x) { return answer(x); }, whatever);
     if (right.crowded && !whatever) return false;
@@ -184,7 +184,7 @@ class IndifferentSearch {
       for (const Ritz& each : all) {
         const VectorXc x = X_.cast<Complex>() * each.x, y = Y_.topRows(e_.unknowns()).cast<Complex>() * each.y;
         const double delta = rounding_(y, 0, x);
-        // Accuracy of R if there are neither stiffness nor left vectors of the motion (rolling, integrals).
+        // Accuracy of R for motions with neither stiffness nor left vectors (rolling, integrals).
         constexpr double of_resistance = 1e-13;
         if (std::abs(each.tau) > std::max(delta, of_resistance)) {
           least = least > 0 ? std::min(least, std::abs(each.tau)) : std::abs(each.tau);
@@ -243,7 +243,7 @@ class IndifferentSearch {
     }
     return result;
   }
-  /// If eigenvalues have fewer vectors than their multiplicity, singular values are used instead: these are zero for
+  /// If eigenvalues have fewer vectors than their multiplicity, singular values are used instead. These are zero for
   /// the same vectors.
   static std::vector<Ritz> singular_pairs(const MatrixX& T, const MatrixX& inverse) {
     std::vector<Ritz> result;

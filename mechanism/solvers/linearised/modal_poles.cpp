@@ -17,14 +17,14 @@ using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 using SparseC = Eigen::SparseMatrix<Complex>;
 
-/// Size of the terms of D'(s) q in each row of the motion.
+/// Returns the size of the terms of D'(s) q in each row of the motion.
 VectorX derivative_terms(const LinearisedEquations& e, Complex s, const VectorXc& q) {
   const VectorXc u = q.head(e.unknowns()), turned = e.W.cast<Complex>() * u;
   return (e.M.cast<Complex>() * u).cwiseAbs() * (2 * std::abs(s)) + (e.M.cast<Complex>() * turned).cwiseAbs() +
          (e.C.cast<Complex>() * u).cwiseAbs();
 }
 
-/// Groups of equal eigenvalues, as indices of their modes.
+/// Returns groups of equal eigenvalues, as indices of their modes.
 std::vector<std::vector<std::size_t>> equal_ones(const std::vector<Mode>& modes) {
   constexpr double same = 1e-7;
   std::vector<std::vector<std::size_t>> groups;
@@ -82,18 +82,19 @@ class PoleFinder {
  private:
   VectorXc scaled(const VectorXc& v) const { return v.head(e_.unknowns()).cwiseQuotient(scale_.head(e_.unknowns())); }
 
-  /// Size of forces, scaled to displacements.
+  /// Returns the size of forces, scaled to displacements.
   double size_of(const VectorXc& forces) const {
     return forces.head(e_.unknowns()).cwiseProduct(scale_.head(e_.unknowns()).cast<Complex>()).norm();
   }
 
-  /// Size of y^T D(s), relative to inertial forces.
+  /// Returns the size of y^T D(s), relative to inertial forces.
   double left_residual(Complex s, const VectorXc& y) const {
-    // M has a diagonal of ones in scaled unknowns: inertial forces have the size |s|^2.
+    // In scaled unknowns, M has a diagonal of ones, and inertial forces have the size |s|^2.
     return size_of(transposed_equations_times(e_, s, y)) / (std::norm(s) * scaled(y).norm());
   }
 
-  /// For symmetric equations the left vectors are the right ones, for undamped gyroscopic ones their conjugates.
+  /// Returns the left vectors. For symmetric equations these are the right ones, for undamped gyroscopic equations
+  /// their conjugates; others are found by iteration.
   MatrixXc left_vectors(Complex s, const MatrixXc& right) const {
     constexpr double exact = 1e-9;
     for (const bool conjugate : {false, true}) {
@@ -105,7 +106,7 @@ class PoleFinder {
     return iterated(s, right);
   }
 
-  /// Inverse iteration with the transposed equations, with a shift next to the eigenvalue.
+  /// Finds left vectors by inverse iteration with the transposed equations and a shift next to the eigenvalue.
   MatrixXc iterated(Complex s, const MatrixXc& right) const {
     constexpr double next_to = 1e-7;
     constexpr int rounds = 4;

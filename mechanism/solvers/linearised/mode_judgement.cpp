@@ -16,7 +16,7 @@ Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a
 
 }  // namespace
 
-/// Returns the left vector. That of general equations is computed only for modes that may grow, since it costs a
+/// Returns the left vector. For general equations it is computed only for modes that may grow, since it costs a
 /// factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
@@ -27,9 +27,9 @@ VectorXc ModeJudgement::left(const Mode& mode) const {
   return left_vector(e_, mode.s, mode.u);
 }
 
-/// Returns the uncertainty of s by the change of the equations: the operator (A - sigma E)^-1 E, where sigma is the
-/// rate, changes by this fraction, and so does s - sigma; for double zeros, which such a change splits, its square
-/// does.
+/// Returns the uncertainty of s due to the change of the equations. The operator (A - sigma E)^-1 E, where sigma is the
+/// rate, changes by this fraction, and so does s - sigma. Such a change splits double zeros; the square of their s
+/// changes by this fraction of the square of the rate.
 double ModeJudgement::drift_uncertainty(Complex s) const {
   const double size = std::abs(s), split = rate_ * std::sqrt(drift_);
   return std::max(drift_ * (rate_ + size), size < split ? split : 0.0);
@@ -63,7 +63,7 @@ void ModeJudgement::judge(Mode& mode) const {
 }
 
 bool ModeJudgement::is_nothing(Complex s, const VectorXc& u) const {
-  // Each term is taken separately: those of a motion decelerated by a damper cancel.
+  // The size of each term is taken separately, because the terms of a motion that a damper decelerates cancel.
   const Complex damping =
                     s * u.dot(VectorXc(e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (e_.W.cast<Complex>() * u))),
                 inertia = s * s * u.dot(e_.M.cast<Complex>() * u);

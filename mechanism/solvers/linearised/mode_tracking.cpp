@@ -16,7 +16,7 @@ Complex inner(const Sparse& M, const Shape& u, const Shape& v) { return u.dot(M.
 
 double square(const Sparse& M, const Shape& u) { return std::max(0.0, inner(M, u, u).real()); }
 
-/// Shapes of a space, orthonormal with respect to M.
+/// Space of shapes, with a basis that is orthonormal with respect to M.
 class ShapeSpace {
  public:
   explicit ShapeSpace(const Sparse& M) : M_(M) {}
@@ -61,7 +61,7 @@ std::vector<int> groups_of(const std::vector<Mode>& modes) {
   return group;
 }
 
-/// Sets of modes at rest, or next to it, that mix among themselves: as many modes of either sample, of which those
+/// Sets of modes at rest, or next to it, that mix among themselves. A set has as many modes after as before, and those
 /// after are nearly in the space of those before.
 class MixedSets {
  public:
@@ -77,8 +77,8 @@ class MixedSets {
       if (first_of(set_[i]) == i) add(before, after, set_[i]);
   }
 
-  /// Returns the fraction of the shape of mode `k` that is in the space of the set before, if the shape `u` is in this
-  /// space as well; otherwise zero.
+  /// Returns the fraction of the shape of mode `k` that is in the space that the set had before, if the shape `u` is in
+  /// this space as well; otherwise zero.
   double share(const Shape& u, std::size_t k) const {
     const auto space = spaces_.find(set_[before_ + k]);
     return space != spaces_.end() && space->second.share(u) >= same_space ? share_[k] : 0;
@@ -171,7 +171,8 @@ class Following {
 
   void add_pairings(std::size_t i, std::vector<Pairing>& pairings) const {
     const TrackedMode& track = before_[i];
-    constexpr double rather_not = 0.99;  // for a real shape: a passage through zero is not preferred
+    // Preference of a mode over its conjugate (a passage through zero), which has the same shape if it is real.
+    constexpr double rather_not = 0.99;
     ShapeSpace open(sample_.M);
     if (track.open >= 0)
       for (const TrackedMode& other : before_)

@@ -36,7 +36,7 @@ class ModeSearch {
       return result;
     }
     if (has_own_units())
-      rigid_.shapes = MatrixX(e_.unknowns(), 0);  // found with the zeros of the search
+      rigid_.shapes = MatrixX(e_.unknowns(), 0);  // found together with the zeros in the search
     else
       rigid_ = find_indifferent_motions(e_, rounding_, options_.dense);
     MatrixX states(e_.states(), rigid_.shapes.cols());
@@ -51,8 +51,8 @@ class ModeSearch {
   bool has_own_units() const { return e_.unknowns() != e_.dofs; }
   double shift() const { return std::abs(around_.T().shift()); }
 
-  /// Whether a state that is not rigid has a zero eigenvalue: the remainder of a double zero is a simple one, which
-  /// rounding does not split.
+  /// Tells whether a state that is not rigid has a zero eigenvalue. The remainder of a double zero is a simple one,
+  /// which rounding does not split.
   bool is_zero(const Eigenpair& pair) const {
     constexpr double of_shift = 1e-8, of_units_of_their_own = 1e-4;
     if (has_own_units()) return std::abs(pair.s) <= of_units_of_their_own * shift();
@@ -100,7 +100,7 @@ class ModeSearch {
   }
 
   /// Chooses a shift of the size of the slowest mode that is not excluded. A shift that is too small resolves that mode
-  /// well, a shift that is too large gives zero for it and for many others.
+  /// well; a shift that is too large yields zero for it and for many others.
   void choose_shift(Eigen::Index count, double begin) {
     around_.set_shift(begin);
     const double first = shift();
@@ -111,7 +111,7 @@ class ModeSearch {
       try {
         nearby = around_.look(count, EigenpairsAround::Look::roughly);
       } catch (const ComputationError&) {
-        around_.set_shift(shift() / 30);  // many eigenvalues are close together, like slow ones seen from a large shift
+        around_.set_shift(shift() / 30);  // eigenvalues appear close together, as slow ones do from a large shift
         continue;
       }
       const double slow = slowest_of(nearby.pairs);
@@ -136,7 +136,7 @@ class ModeSearch {
     return std::max({1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_), hardly_moves});
   }
 
-  /// Whether eigenvalues exist that are neither excluded nor among these: slow modes may hide fast ones.
+  /// Tells whether eigenvalues exist that are neither excluded nor among these. Slow modes may hide fast ones.
   bool any_missing(const std::vector<Eigenpair>& pairs) {
     constexpr int most = 2000;  // limit of states for counting
     if (e_.states() > most) return true;
@@ -173,7 +173,7 @@ class ModeSearch {
       choose_shift(count, from);
       EigenpairsNearby nearby = around_.look(count, EigenpairsAround::Look::exactly);
       while (true) {
-        // The nearest to the shift are not always the slowest: within this circle none is missing.
+        // The modes nearest to the shift are not always the slowest. No mode is missing within this circle.
         const double known = nearby.radius - shift();
         const bool whole = !std::isfinite(nearby.radius);
         Modes result = before;
@@ -201,8 +201,8 @@ class ModeSearch {
     }
   }
 
-  /// @returns the number of zeros that do not belong to rigid motions: a double zero has one motion, a simple one is a
-  /// state at rest
+  /// @returns the number of zeros that do not belong to rigid motions: a double zero belongs to one rigid motion, a
+  /// simple zero to a state at rest
   Eigen::Index find_rigid_among(const std::vector<Eigenpair>& pairs) {
     std::vector<Eigenpair> zeros;
     for (const Eigenpair& pair : pairs)
@@ -225,7 +225,7 @@ class ModeSearch {
     result.all = all && result.modes.size() <= count;
     sort_by_rate(result.modes);
     if (!options_.below && result.modes.size() > count) result.modes.resize(count);
-    constexpr double next_below = 1 - 1e-6;  // the last one may have equal ones
+    constexpr double next_below = 1 - 1e-6;  // other modes may have the same rate as the last one
     note_growing_besides(options_.below         ? 2 * std::numbers::pi * *options_.below
                          : result.modes.empty() ? 0
                                                 : next_below * std::abs(result.modes.back().s),
@@ -296,7 +296,7 @@ SingularEquations::SingularEquations(int at)
 
 namespace {
 
-/// sqrt(K/M) of dofs, K/C of first-order unknowns, from diagonal entries; zeros are omitted.
+/// Returns sqrt(K/M) of dofs and K/C of first-order unknowns from diagonal entries; zeros are omitted.
 std::vector<double> diagonal_rates(const LinearisedEquations& e) {
   const VectorX M = e.M.diagonal(), C = e.C.diagonal(), K = e.K.diagonal();
   std::vector<double> rates;

@@ -41,7 +41,7 @@ class SearchAround {
     double share;
   };
 
-  static constexpr double most = 0.5;  ///< share of a shape that no other one can have
+  static constexpr double most = 0.5;  ///< a motion with a larger share of a shape is the only one
 
   bool look_around(std::size_t k, EigenpairsAround& around) {
     const Complex s = mean_.modes[k].mode.s;
@@ -53,12 +53,12 @@ class SearchAround {
         if (of_mean_[k] >= 0) return true;
       }
     } catch (const ComputationError&) {
-      return false;  // motions so close together that they cannot be told apart
+      return false;  // motions are so close together that they cannot be distinguished
     }
     return false;
   }
 
-  /// Takes the motion that represents the mode k of the mean, and those that certainly represent others.
+  /// Takes the motion that represents the mode k of the mean, and the motions that certainly represent other modes.
   void take(std::size_t k, const EigenpairsNearby& nearby) {
     std::vector<HarmonicMode> motions;
     std::vector<Candidate> candidates;
@@ -89,14 +89,14 @@ class SearchAround {
     }
   }
 
-  /// Returns whether a motion decays about as a mode of the mean does: a slow and a fast decay may have one shape, and
-  /// copies differ only in their frequency.
+  /// Returns whether a motion decays at about the rate of a mode of the mean. A slow and a fast decay may have the same
+  /// shape, whereas copies differ only in their frequency.
   bool may_be(Complex s, Complex of_mean) const {
     return std::abs(s.real() - of_mean.real()) <= 0.5 * std::abs(of_mean) + std::abs(periodic_.rate());
   }
 
-  /// Returns the part that copies of a mode of the mean have in a motion; zero if the mean of their harmonics is
-  /// nearer to zero in a copy of the motion.
+  /// Returns the share of a motion that copies of a mode of the mean make up. The result is zero if a copy of the
+  /// motion has the mean of these harmonics nearer to zero.
   double share_of(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& of_mean) const {
     const VectorX parts = shapes_.similarities(u, of_mean);
     const Eigen::Index h = parts.size() / 2;

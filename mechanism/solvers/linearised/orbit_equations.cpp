@@ -96,7 +96,7 @@ VectorX OrbitEquations::in_mean_axes(int k, const Sparse& axes, const VectorX& r
     gaps[j] = r[n + row];
     if (!part_.drives_joint(row)) continue;
     gaps[j] -= drives_[static_cast<std::size_t>(k)][j];
-    // Both angles may be on different turns.
+    // The two angles may differ by whole turns.
     if (system_.equation_units(n + row) == "rad") gaps[j] = std::remainder(gaps[j], 2 * std::numbers::pi);
   }
   VectorX result(n + m);

@@ -67,7 +67,7 @@ class OrbitSearch {
           followed = follow(residual(orbit), orbit);
         }
       }
-      // A motion of large amplitude exists with several harmonics only.
+      // A motion with a large amplitude can only be found with several harmonics.
       if (!followed && h >= most_begun) throw_none(why_not());
       if (followed && resolved(orbit)) return whole(std::move(orbit));
     }
@@ -82,7 +82,7 @@ class OrbitSearch {
         rate_, reason));
   }
 
-  /// Increases the alternating forces up to the whole. @returns whether the motion was found
+  /// Increases the alternating forces to their full size. @returns whether the motion was found
   bool follow(const HarmonicResidual& first, PeriodicDeviation& orbit) {
     constexpr double least = 1.0 / 256;
     double step = 1;
@@ -159,7 +159,7 @@ class OrbitSearch {
     if (!r.forces.allFinite() || !r.gaps.allFinite()) r.size = INFINITY;
   }
 
-  /// Newton's method; the factors are kept as long as the residual falls rapidly.
+  /// Applies Newton's method; the factors are kept as long as the residual decreases rapidly.
   /// @param first  residual of the mean state @param part  fraction of it that acts
   bool converge(const HarmonicResidual* first, double part, PeriodicDeviation& orbit) {
     constexpr int most = 25, most_worse = 3;
@@ -181,7 +181,8 @@ class OrbitSearch {
       if (!std::isfinite(r.size)) return false;
       if (iteration == 0) begin = r.size;
       if (r.size <= exact || (r.size <= balanced && r.size > 0.5 * before)) return true;
-      // A wandering iteration may end at another motion than the one that grows with the forces.
+      // An iteration whose residual increases repeatedly may end at another motion than the one that grows with the
+      // forces.
       if (r.size > before && ++worse > most_worse) return false;
       if (r.size > far * begin) return false;
       if (!operator_ || r.size > rapid * before) {
@@ -205,7 +206,7 @@ class OrbitSearch {
     return operator_->regular();
   }
 
-  /// A shift of the time is a motion that nothing resists, unless a drive gives the angle itself.
+  /// Holds indifferent motions. A shift in time is one of them, unless a drive prescribes the angle itself.
   void hold(LinearisedEquations& e) {
     constexpr double little = 1e-6;
     hold_loose(rate_, e);
@@ -285,9 +286,9 @@ class OrbitSearch {
     return orbit;
   }
 
-  /// Whether the last two harmonics are negligible.
+  /// Tells whether the last two harmonics are negligible.
   bool resolved(const PeriodicDeviation& orbit) const {
-    // A free part has a double zero exponent, which is split by the root of an error.
+    // A part that turns freely has a double zero exponent, which an error splits by the square root of its size.
     const double negligible = free_ ? 1e-12 : 1e-10, share = free_ ? 1e-10 : 1e-8;
     std::array<double, kind_count> largest{}, last{};
     const int h = orbit.harmonics;
@@ -308,10 +309,10 @@ class OrbitSearch {
   const State& state_;
   const TurningPart& part_;
   double rate_, length_;
-  double made_ = 0;  ///< fraction of the alternating forces up to which the motion was followed last
+  double made_ = 0;  ///< fraction of the alternating forces up to which the motion was last followed
   VectorX gap_sizes_;
   ResidualScale scale_;
-  bool free_ = false, held_ = false;  ///< whether nothing drives the joint, or something gives its angle
+  bool free_ = false, held_ = false;  ///< whether no drive acts on the joint; whether a drive prescribes its angle
   std::unique_ptr<const OrbitEquations> equations_;
   std::unique_ptr<const PeriodicEquations> periodic_;
   LinearisedEquations harmonics_;

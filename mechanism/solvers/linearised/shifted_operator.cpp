@@ -104,7 +104,8 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   scale_ = VectorX::Zero(e.states());
   const VectorX mass = e.M.diagonal();
   const VectorX stiffness = D.diagonal().cwiseAbs();
-  // Centrifugal terms that cancel leave rounding in place of a stiffness (a blade without inertia about its length).
+  // Centrifugal terms that cancel leave rounding errors in place of a stiffness (a blade without inertia about its
+  // length).
   constexpr double rounding = 1e-12;
   double stiffest[] = {0, 0};  // translations and amplitudes, rotations
   const auto kind = [&](int i) { return !e.turns.empty() && e.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
@@ -124,7 +125,7 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   const double usual = known > 0 ? std::exp(sum / known) : 1;
   for (int i = 0; i < dofs; ++i)
     if (scale_[i] == 0) scale_[i] = usual;
-  // A first-order unknown y, D_yy y = -D_yu u and D_uu u = -D_uy y, in scaled unknowns.
+  // The scale of a first-order unknown y follows from D_yy y = -D_yu u and D_uu u = -D_uy y in scaled unknowns.
   VectorX to = VectorX::Zero(n), from = VectorX::Zero(n);
   for (int j = 0; j < n; ++j)
     for (SparseC::InnerIterator it(D, j); it; ++it) {

@@ -15,8 +15,8 @@ double rate_of(const TrackedMode& track) { return std::abs(track.s.imag()); }
 
 bool kept(const TrackedMode& track) { return track.found && track.correlation >= lost_below; }
 
-/// Difference between the rate of a mode and a multiple of the speed, zero if they are equal up to rounding: a rigid
-/// motion in rotating axes has the speed as its frequency.
+/// Returns the difference between the rate of a mode and a multiple of the speed, or zero if they are equal up to
+/// rounding: a rigid motion in rotating axes has the speed as its frequency.
 double excess_of(const SweepPoint& point, std::size_t mode, double order) {
   constexpr double rounding = 1e-12;
   const TrackedMode& track = point.tracks[mode];
@@ -24,13 +24,13 @@ double excess_of(const SweepPoint& point, std::size_t mode, double order) {
   return std::abs(excess) <= track.uncertainty + rounding * rate_of(track) ? 0 : excess;
 }
 
-/// Whether the frequencies are equal up to rounding.
+/// Tells whether the frequencies are equal up to rounding.
 bool together(double a, double b) {
   constexpr double same = 1e-6;
   return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
 }
 
-/// Whether two modes change their order between two points.
+/// Tells whether two modes change their order between two points.
 bool order_changed(const SweepPoint& a, const SweepPoint& b, std::size_t i, std::size_t j) {
   if (!kept(b.tracks[i]) || !kept(b.tracks[j])) return false;
   const double ai = rate_of(a.tracks[i]), aj = rate_of(a.tracks[j]), bi = rate_of(b.tracks[i]),
@@ -45,10 +45,10 @@ bool order_changed(const SweepPoint& a, const SweepPoint& b) {
   return false;
 }
 
-/// Whether modes change their order that do not mix among themselves. @param a  at rest @param b  in motion, or
+/// Tells whether modes that do not mix among themselves change their order. @param a  at rest @param b  in motion, or
 /// reversed
 bool order_changed_beyond_mixing(const SweepPoint& a, const SweepPoint& b, const LinearisedEquations::Sparse& M) {
-  constexpr double related = 0.05;  // correlation of shapes of which one has a part of the other
+  constexpr double related = 0.05;  // correlation above which one of two shapes has a part of the other
   for (std::size_t i = 0; i < a.tracks.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (order_changed(a, b, i, j) && shape_correlation(M, a.tracks[i].u, b.tracks[j].u) < related &&
@@ -70,7 +70,7 @@ bool any_lost(const SweepPoint& from, const SweepPoint& to) {
   return false;
 }
 
-/// Whether one of two states is at rest and the other one is not.
+/// Tells whether one of two states is at rest and the other one is not.
 bool begins_or_ends_at_rest(const SweepPoint& from, const SweepPoint& to) {
   constexpr double rounding = 1e-12;
   const double slow = std::min(std::abs(from.speed), std::abs(to.speed)),
@@ -78,9 +78,9 @@ bool begins_or_ends_at_rest(const SweepPoint& from, const SweepPoint& to) {
   return fast > 0 && slow <= rounding * fast;
 }
 
-/// Whether a mode that was lost may be faster than all modes of the sample. A slower one has changed its shape.
+/// Tells whether a mode that was lost may be faster than all modes of the sample. Otherwise it has changed its shape.
 bool may_be_faster(const SweepPoint& from, const SweepPoint& to, const ModeSample& sample) {
-  constexpr double most_change = 2;  // a frequency that changes more is found by further values between
+  constexpr double most_change = 2;  // further values between find a frequency that changes by a larger factor
   double fastest = 0;
   for (const Mode& mode : sample.modes) fastest = std::max(fastest, std::abs(mode.s));
   for (std::size_t i = 0; i < to.tracks.size(); ++i)
@@ -130,7 +130,7 @@ SweepPoint SpeedSweep::followed_from_rest(const SweepPoint& from, const SweepPoi
   return point;
 }
 
-/// Follows tracks from rest, or to it, where shapes change at once, however near the other value is: values between
+/// Follows tracks from rest, or to it. Shapes change abruptly there, however near the other value is; values between
 /// would show nothing else. @returns whether all modes were followed
 bool SpeedSweep::follow_at_once(const SweepPoint& from, const SweepPoint& to) {
   if (!begins_or_ends_at_rest(from, to)) return false;
@@ -285,7 +285,7 @@ void SpeedSweep::find_crossings(std::size_t i, std::size_t j) {
   }
 }
 
-/// Finds minima of the distance between two frequencies on both sides of which it triples, with shapes that are
+/// Finds minima of the distance between two frequencies. The distance must triple on both sides, and the shapes must be
 /// exchanged between these sides.
 void SpeedSweep::find_veerings(std::size_t i, std::size_t j) {
   const std::vector<SweepPoint>& points = result_.points;
@@ -302,7 +302,7 @@ void SpeedSweep::find_veerings(std::size_t i, std::size_t j) {
     std::size_t a = k, b = k;
     while (a > 0 && same_side(a - 1) && std::abs(gap(a)) < apart * least) --a;
     while (b + 1 < points.size() && same_side(b + 1) && std::abs(gap(b)) < apart * least) ++b;
-    constexpr double turned_away = 1.5;  // factor at the ends of the sweep
+    constexpr double turned_away = 1.5;  // least factor, for a minimum near an end of the sweep
     if (std::abs(gap(a)) < turned_away * least || std::abs(gap(b)) < turned_away * least) continue;
     const auto correlation = [&](std::size_t from, std::size_t to) {
       return shape_correlation(M_, points[a].tracks[from].u, points[b].tracks[to].u);

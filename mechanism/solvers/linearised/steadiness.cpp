@@ -22,7 +22,7 @@ VectorX some_state(Eigen::Index size, std::uint64_t seed) {
   return x;
 }
 
-/// Moves increments, or rates, of the dofs from one instant to another with the axes.
+/// Carries increments, or rates, of the dofs along with the axes from one instant to another.
 void carry(const System& system, const State& from, const State& to, ModeAxes axes, Eigen::Ref<VectorX> x) {
   for (std::size_t k = 0; k < from.nodes.size(); ++k) {
     const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
@@ -97,7 +97,7 @@ double change(const System& system, const Environment& environment, const State&
     }
     return most / h;
   }
-  return 0;  // the search for modes will report the error
+  return 0;  // the search for modes will report this error
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
   if (rates.velocity <= negligible * slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
     return std::nullopt;
   steadiness.rate = std::max(rates.velocity, rates.acceleration);
-  constexpr double part = 1e-5;  // fraction of the time for a radian: half of the digits
+  constexpr double part = 1e-5;  // fraction of the time for a radian; differences keep half of the digits
   const State later = moved_on(system, environment, state, part / steadiness.rate);
   steadiness.inertial = change(system, environment, state, later, steadiness.rate, ModeAxes::inertial);
   steadiness.turning = change(system, environment, state, later, steadiness.rate, ModeAxes::turning);
@@ -128,7 +128,7 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
 }
 
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {
-  // Forces within one component may balance each other: forces that move nothing are no unbalance.
+  // Forces within one component may balance each other. Forces that move nothing are not an unbalance.
   constexpr double negligible = 1e-9;  // relative to the mechanism's size: distance from equilibrium, or motion in 1 s
   const double softest = slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial));
   if (std::pow(rates_of(state).acceleration, 2) <= negligible * std::max(1.0, softest * softest)) return 0;

@@ -128,7 +128,8 @@ class RotationEquilibrium {
     LinearisedEquations equations =
         linearised_equations(system_, state, ModeAxes::turning, forces_.matrices(state, before), r);
     if (part_) equations.K += axis_stiffness(rotation, state, r);
-    const double rate = rotation.rate() > 0 ? rotation.rate() : slowest_rate(equations);  // at rest, a usual one
+    // At rest, the slowest rate is used.
+    const double rate = rotation.rate() > 0 ? rotation.rate() : slowest_rate(equations);
     if (hold_ == Hold::displacements) hold_loose(rate, equations);
     const ShiftedOperator D(equations, hold_ == Hold::displacements ? 0 : 1e-3 * rate);
     if (!D.regular()) return false;
@@ -144,7 +145,8 @@ class RotationEquilibrium {
     return step_.allFinite();
   }
 
-  /// Returns the derivatives of the forces by the motion of the axis with its standing node, by differences.
+  /// Returns the derivatives of the forces with respect to the motion of the axis with its standing node, by
+  /// differences.
   LinearisedEquations::Sparse axis_stiffness(const RotationMotion& rotation, const State& state, const VectorX& r) {
     const int n = system_.dofs() + system_.first_orders();
     LinearisedEquations::Sparse stiffness(n, n);
@@ -258,8 +260,8 @@ void check_turns(const System& system, const Environment& environment, const Tur
   }
 }
 
-/// Largest rotation or displacement of a node relative to the mechanism's size: a large increment may have led to
-/// another equilibrium than that of the path.
+/// Returns the largest rotation or displacement of a node, relative to the mechanism's size. A large increment may have
+/// led to another equilibrium than that of the path.
 double farthest_between(const State& a, const State& b) {
   const double length = model_length(a);
   double most = 0;

@@ -14,7 +14,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double no_screw = 1e-9;  // relative to the mechanism's size
+constexpr double no_screw = 1e-9;  // largest pitch of the joint's motion, relative to the mechanism's size
 
 /// Returns the coordinates of a joint that are angles.
 std::vector<std::size_t> angles_of(const Member& joint) {

@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Inertias of a node's free translations and rotations: means of their diagonal entries; zero if none is free.
+/// Inertias of a node's free translations and rotations: means of their diagonal entries, or zero if none is free.
 struct NodeInertia {
   double mass = 0, moment = 0;
 };

@@ -81,7 +81,8 @@ TEST_CASE("critical speeds of a disc are those of the closed form, and crossings
   check_rates(critical, exact, 1e-8);
   CHECK(whirl[1] == Approx(-1).epsilon(1e-6));
   CHECK(whirl[4] == Approx(1).epsilon(1e-6));
-  // Backwards it falls through both translations, forwards it rises through the motion along the axis.
+  // The frequency of the backward whirl falls through those of both translations; that of the forward whirl rises
+  // through that of the motion along the axis.
   std::vector<double> crossings;
   for (const double w : {std::sqrt(kx / mass), std::sqrt(ky / mass)})
     crossings.push_back((k_tilt - Jt * w * w) / (Jp * w));

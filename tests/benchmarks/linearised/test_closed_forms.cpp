@@ -124,7 +124,7 @@ TEST_CASE("rigid modes are counted by shapes and are zero, not noise", "[lineari
 }
 
 TEST_CASE("two free bodies on a spring have six rigid modes, five more turns, and one frequency", "[linearised]") {
-  // The spring between the centres resists their distance alone: of 12 motions 11 are free.
+  // The spring between the centres acts on their distance alone: of 12 motions, 11 are free.
   const ModesReport report = ModesOf(
       "nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 2, 2]}}\n"
       "elements:\n  a: {type: rigid_body, node: a, mass: 2, inertia: [1, 2, 2]}\n"
@@ -145,7 +145,7 @@ TEST_CASE("redundant constraints change no mode", "[linearised]") {
 }
 
 TEST_CASE("first-order unknowns have modes of their own", "[linearised]") {
-  // T z' = -z: s = -1/T. An integral of nothing is a rigid mode: it may stand anywhere.
+  // T z' = -z: s = -1/T. The integral of zero is a rigid mode: it may have any value.
   const ModesReport report = ModesOf(
       "nodes: {m: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
       "elements: {m: {type: point_mass, node: m, mass: 2}, s: {type: spring_damper, nodes: [ground, m], stiffness: "

@@ -85,7 +85,8 @@ TEST_CASE("an oscillator with delayed forces answers with the factors exp(-i w T
 }
 
 TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
-  // A pendulum pushed at its bob, small motions: angle H = l/(J (w0^2 - w^2)); its pivot carries the rest.
+  // Small motions of a pendulum that is pushed at its bob: angle H = l/(J (w0^2 - w^2)); its pivot carries the
+  // remaining force.
   const ModesOf model(
       "gravity: [0, 0, -9.81]\nnodes: {bob: {position: [0, 0, -2]}}\n"
       "elements: {bob: {type: rigid_body, node: bob, mass: 3, inertia: [0.5, 0.5, 0.5]}}\n"
@@ -101,7 +102,7 @@ TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
   const double J = 0.5 + 3 * 4, w0 = std::sqrt(3 * 9.81 * 2 / J);
   for (std::size_t f = 0; f < options.frequencies.size(); ++f) {
     const double w = two_pi * options.frequencies[f], H = 1 / (J * (w0 * w0 - w * w));
-    // About +y a force along x at the bob, below the pivot, turns by -2.
+    // The bob is below the pivot: a force along x has the moment -2 about +y.
     CHECK(std::abs(found.response[f](0, 0) - -2 * H) < 1e-10 * std::abs(H));
     CHECK(std::abs(found.response[f](0, 1) - H) < 1e-10 * std::abs(H));
     CHECK(std::abs(found.response[f](1, 1) - H) < 1e-10 * std::abs(H));

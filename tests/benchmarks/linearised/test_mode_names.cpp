@@ -156,8 +156,8 @@ TEST_CASE("equal modes of equal parts keep what they have in common", "[linearis
 }
 
 TEST_CASE("parts with equal shares of a mode are named together, in whatever order they are written", "[linearised]") {
-  // Two masses on springs on a mass with the frequency of theirs: w^2 = 25, 50, 100. In the slowest mode all three
-  // masses have the same energy.
+  // Two masses on springs on a third mass whose own frequency equals theirs: w^2 = 25, 50, 100. In the slowest mode all
+  // three masses have the same energy.
   const std::string mass = ", fixed: [y, z, rx, ry, rz]}", spring = ", stiffness: [25, 25, 25, 0, 0, 0]}";
   for (const auto& [first, second] : {std::pair("left", "right"), std::pair("right", "left")}) {
     const std::string a = first, b = second;
@@ -189,7 +189,7 @@ TEST_CASE("blades and tower have the names of designers, and whirls the frequenc
   // The tower is softer about y of its section, which is along the shaft: it moves sideways more easily.
   CHECK(found.at("1st tower side-side") < found.at("1st tower fore-aft"));
   CHECK(found.at("1st blade flap, collective") < found.at("1st blade edge, forward"));
-  // Blades on a hub that rests have equal frequencies p in turning axes, and p - rate, p + rate in standing ones.
+  // Blades on a hub at rest have equal frequencies p in turning axes, and p - rate, p + rate in standing axes.
   const double apart = found.at("1st blade edge, forward") - found.at("1st blade edge, backward");
   CHECK(apart == Approx(2 * rate / two_pi).epsilon(0.1));
 }

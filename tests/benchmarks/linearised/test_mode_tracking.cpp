@@ -62,7 +62,7 @@ TEST_CASE("modes that cross keep their numbers, which sorting by frequency would
     }
     REQUIRE(found.meetings.size() == 1);
     CHECK_FALSE(found.meetings[0].veering);
-    // Frequencies are straight there but for (slope p/200)^2 relative to each other.
+    // Frequencies are straight lines there, up to (slope p/200)^2 relative to each other.
     CHECK(std::abs(found.meetings[0].value) < 1e-6);
     CHECK(found.meetings[0].frequency == Approx(10 / two_pi).epsilon(3e-3));
   }
@@ -80,9 +80,9 @@ TEST_CASE("modes that veer are told, with the gap that is left and the exchange 
     const double gap = (std::sqrt(at_rest + 2 * between) - std::sqrt(at_rest)) / two_pi;
     CHECK(veering.gap == Approx(gap).epsilon(0.02));
     CHECK(std::abs(veering.value) < 0.1 * between / slope);
-    // Each goes on along its line: the lower one stays the lower one.
+    // Each track stays on its side: the lower one remains the lower one.
     for (const SweepPoint& point : found.points) CHECK(std::abs(point.tracks[0].s) < std::abs(point.tracks[1].s));
-    // And it has become the other mass.
+    // Its shape has become that of the other mass.
     CHECK(std::abs(found.points.front().tracks[0].u[0]) > 10 * std::abs(found.points.front().tracks[0].u[1]));
     CHECK(std::abs(found.points.back().tracks[0].u[1]) > 10 * std::abs(found.points.back().tracks[0].u[0]));
   }

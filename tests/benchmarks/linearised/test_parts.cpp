@@ -10,7 +10,8 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 
 TEST_CASE("the oil in a cylinder is a spring of B (A1^2/V1 + A2^2/V2)", "[linearised]") {
-  // H. Merritt, Hydraulic Control Systems (1967), ch. 6. Ports closed: A2/A1 divides the pressures in equilibrium.
+  // H. Merritt, Hydraulic Control Systems (1967), ch. 6. The ports are closed: the pressures in equilibrium have the
+  // ratio A2/A1.
   constexpr double B = 1.4e9, A1 = 2e-3, A2 = 1.2e-3, V1 = 1e-3, V2 = 0.2e-3 + 0.5 * A2, m = 500;
   const ModesReport report = ModesOf(
       "nodes: {mass: {position: [0, 0, 1], fixed: [x, y, rx, ry, rz]}}\n"
@@ -72,7 +73,7 @@ TEST_CASE("the analysis records frequencies, shapes and shares of energy", "[lin
   CHECK(shapes.size() == 3 * nodes * 3 * 2);
   double most = 0;
   for (std::size_t k = 0; k < nodes * 6; ++k) most = std::max(most, std::abs(shapes[k]));
-  CHECK(most == Approx(1).epsilon(0.5));  // 1 m, or the turns count for more
+  CHECK(most == Approx(1).epsilon(0.5));  // 1 m, unless rotations are larger
   CHECK_THROWS(sink.read(2, "eigen/displacement"));
   CHECK(sink.read(2, "eigen/frequency").size() == 2);
 }

@@ -90,7 +90,7 @@ TEST_CASE("a free body that is stressed by a spring of its own keeps six rigid m
       CAPTURE(element, P);
       const ModesReport report = ModesOf(tied_beam(P, element), true)({.count = 8});
       CHECK(count_rigid(report) == 6);
-      CHECK(report.found.modes.size() == 6 + 8);  // `count` elastic ones, whatever the rigid ones
+      CHECK(report.found.modes.size() == 6 + 8);  // `count` elastic modes in addition to the rigid ones
       CHECK_FALSE(report.found.all);
       check_nothing_grows(report);
       // The tolerance covers a compression by 2e-5 of the length, and the error of finite elements or modes.

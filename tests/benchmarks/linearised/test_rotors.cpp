@@ -43,8 +43,8 @@ TEST_CASE("a spinning disc tilts forwards and backwards with different frequenci
 }
 
 TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[linearised]") {
-  // Time integration of the nonlinear model, from a state along the mode: constraints, gyroscopic terms and damping at
-  // once.
+  // The nonlinear model is integrated in time from a state along the mode, with constraints, gyroscopic terms and
+  // damping at once.
   const std::string text = rotor(60, 2e5, 1e5, ", damping: [200, 100, 100, 0.5, 1, 1]");
   ModesOf model(text);
   const ModesReport report = model();
@@ -111,7 +111,8 @@ TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the pla
     CHECK(report.steadiness->steady());
     const double lag = std::sqrt(each.flap * each.flap - each.eta * each.eta);
     const std::vector<double> found = rates_of(report);
-    // Frequencies of 16 elements at rest are accurate to 1e-5; large tension is carried by elements of constant strain.
+    // Frequencies of 16 elements at rest are accurate to 1e-5. Large tension is carried by elements with constant
+    // strain.
     CHECK(found[0] == Approx(lag).epsilon(1e-3));
     CHECK(found[1] == Approx(each.flap).epsilon(1e-3));
     if (each.second_flap > 0) {
@@ -123,8 +124,8 @@ TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the pla
 }
 
 TEST_CASE("a rigid blade on a flapping hinge in rotation swings with the speed", "[linearised]") {
-  // Flap of a rod hinged in the axis: omega = Om; hinged at e outside it: Om sqrt(1 + 3 e/(2 l)). Nothing but
-  // centrifugal forces.
+  // Flap of a rod hinged in the axis: omega = Om; hinged at e outside it: Om sqrt(1 + 3 e/(2 l)). Only centrifugal
+  // forces act.
   for (const double e : {0.0, 0.2}) {
     const double rate = 7;
     const ModesOf model(

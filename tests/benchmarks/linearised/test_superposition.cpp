@@ -128,7 +128,7 @@ TEST_CASE("left and right vectors of small motions are biorthogonal, of symmetri
 }
 
 TEST_CASE("sums over modes are refused where they mean nothing", "[linearised]") {
-  // A free body: half of the answer is that of its rigid motion.
+  // A free body: the rigid motion makes up half of the response.
   const ModesOf free(
       "nodes: {a: {position: [0, 0, 0], fixed: [y, z, rx, ry, rz]}, b: {position: [1, 0, 0], fixed: [y, z, rx, ry, "
       "rz]}}\n"
@@ -142,7 +142,7 @@ TEST_CASE("sums over modes are refused where they mean nothing", "[linearised]")
   options.modes = 2;
   CHECK_THROWS_WITH(compute_frequency_response(free.session, options),
                     Catch::Contains("a rigid mode that no force resists"));
-  // Critically damped: one shape for a double eigenvalue.
+  // With critical damping, a double eigenvalue has a single shape.
   const ModesOf critical(
       "nodes: {a: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
       "elements:\n  a: {type: point_mass, node: a, mass: 2}\n"

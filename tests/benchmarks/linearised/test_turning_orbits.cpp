@@ -145,7 +145,7 @@ TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear eq
     const Turning turning(each.text, 6);
     CAPTURE(each.name);
     CHECK(turning.report.turning->periodicity == Periodicity::periodic);
-    CHECK(count_rigid(turning.report) == 1);  // the drive gives the rate, not the angle
+    CHECK(count_rigid(turning.report) == 1);  // the drive prescribes the rate, not the angle
     REQUIRE(turning.exponents().size() == each.modes);
     check_table(turning.exponents(), table, each.name, 6, 3e-6);  // 1e-7 of the largest exponent
   }
@@ -153,7 +153,8 @@ TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear eq
 
 TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations, next to those of the mean state",
           "[linearised]") {
-  // Gravity changes the frequency of a blade, 12.6 rad/s, by up to 0.8 rad/s over a turn: by more than the lower rates.
+  // Gravity changes the frequency of a blade, 12.6 rad/s, by up to 0.8 rad/s over a turn, which exceeds the lower
+  // rates.
   const ReferenceTable table("turning_orbits");
   for (const double rate : {1.0, 0.3, -0.3}) {
     CAPTURE(rate);
@@ -166,7 +167,7 @@ TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations
     REQUIRE(of_mean.size() == 5);
     CHECK(turning.report.turning->unresolved == 0);
     if (rate == 1) check_table(found, table, "slow_blades", rate, 3e-6);
-    // The exponent that represents a motion is no copy of it, which differs by a multiple of the rate.
+    // The exponent that represents a motion is not one of its copies, which differ by multiples of the rate.
     for (const Complex s : found) {
       const auto nearest = std::min_element(of_mean.begin(), of_mean.end(),
                                             [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
@@ -429,7 +430,7 @@ TEST_CASE("a pendulum that turns over keeps its energy", "[linearised]") {
 TEST_CASE("rotors without a periodic motion near their mean state are refused", "[linearised]") {
   CHECK_THROWS_WITH(Turning(unbalanced(", damping: [20, 20, 0, 0, 0, 0]"), 7),
                     Catch::Contains("no periodic motion at 7 rad/s") && Catch::Contains("a drive with a `rate`"));
-  // Nothing centres the blade but its rotation, which is slow: it tumbles.
+  // Only the slow rotation centres the blade: it tumbles.
   CHECK_THROWS_WITH(Turning(blades(1, 0, std::nullopt, "rate: 0.5"), 0.5), Catch::Contains("no periodic motion"));
 }
 

@@ -115,7 +115,7 @@ TEST_CASE("a blade behind a joint has Wright's frequencies, as in rotation about
 TEST_CASE("masses on springs move outwards by m Om^2 r/(k - m Om^2), on a standing part that carries the weight",
           "[linearised]") {
   // Two masses on a hub that overhangs a flexible bearing. The mean weight bends the bearing: it sinks by W/k and tilts
-  // by W d/kt, with W of the whole turning part, though gravity turns around it.
+  // by W d/kt, where W is the weight of the whole turning part, although gravity turns relative to it.
   constexpr double m = 2, k = 4e3, r = 0.5, rate = 20, bearing = 1e6, tilt = 1e6, d = 0.3, g = 10, hub = 6;
   const auto text = [&](double first) {
     return fmt::format(
@@ -140,7 +140,7 @@ TEST_CASE("masses on springs move outwards by m Om^2 r/(k - m Om^2), on a standi
   // The weight of the bearing itself is 1 kg; rotations of 1e-5 leave second-order terms.
   CHECK(turning.node("bearing").x.y() == Approx(-(weight + g) / bearing).epsilon(1e-4));
   CHECK(log_so3(turning.node("bearing").R).x() == Approx(weight * d / tilt).epsilon(1e-3));
-  // One mass is heavier: the rotor is out of balance, which the bearing does not feel in the mean.
+  // One mass is heavier, so that the rotor is unbalanced. The mean force on the bearing does not show this.
   const Turning heavy(text(1.1 * m), "shaft", rate, 4);
   CHECK(heavy.node("bearing").x.y() == Approx(-(weight + 0.1 * m * g + g) / bearing).epsilon(1e-4));
   CHECK(std::abs(heavy.node("bearing").x.x()) < 1e-9);
@@ -259,7 +259,7 @@ TEST_CASE("two blades that turn slowly on supports that differ have the exponent
     CHECK(turning.report.turning->harmonics >= before);
     before = turning.report.turning->harmonics;
     const auto steps = static_cast<int>(1e4 / rate);
-    // Exponents are accurate to about 1e-7: the phase of a turn is in proportion.
+    // Exponents are accurate to about 1e-7, and the phase over a turn in proportion.
     check_multipliers(turning.oscillating(), rotor.multipliers(steps), rate, 1e-7 * 14 * two_pi / rate);
   }
   CHECK(before > 8);

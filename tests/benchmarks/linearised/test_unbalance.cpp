@@ -80,7 +80,7 @@ TEST_CASE("an eccentric disk that turns freely finds its radius below, near and 
     const double radius = each.e * square / (k / m - square);
     CHECK(Vector3(node.x - Vector3(0, 0, 1) - radius * ahead).norm() < 1e-9 * std::max(1e-3, std::abs(radius)));
     CHECK(std::abs(ahead.z()) < 1e-9);
-    // The disk bends out along two directions at once. It may also tilt out if its centre is inside.
+    // The disk moves outwards along two directions at once. It may also tilt outwards if its centre is inside.
     const double tilt = k_tilt + (J - Jt) * square + m * square * (radius + each.e) * each.e;
     CHECK(report.outweighed == (square > k / m ? 2 : 0) + (tilt < 0 ? 1 : 0));
   }
@@ -121,7 +121,7 @@ TEST_CASE("a balanced disk has the inertial whirl frequencies, and a slightly un
     check_rates(rates_of(balanced), exact, 1e-9);
     const ModesReport slightly = modes_at(1e-5, speed);
     CHECK_FALSE(any_grows(slightly));
-    // In axes that turn, s = i (w -+ Om): forwards less, backwards more.
+    // In turning axes s = i (w -+ Om): lower for forward modes, higher for backward ones.
     CHECK(slightly.axes == ModeAxes::turning);
     std::vector<double> seen = {std::abs(radial - speed), radial + speed, std::sqrt(1e6 / m), backward + speed,
                                 std::abs(forward - speed)};
