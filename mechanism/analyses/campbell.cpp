@@ -101,7 +101,7 @@ class CampbellStates {
       sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
     }
     if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
-        (found_->unsteady.empty() || found_->unsteady.back() != value))
+        std::count(found_->unsteady.begin(), found_->unsteady.end(), value) == 0)
       found_->unsteady.push_back(value);
     if (named) named_[value] = {report.found.modes, full_names(describe_modes(system, report))};
     return sample;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t most_listed = 50;
 
-/// Lists the parts with 5 % of the energy or more, the largest first: "element 'rod' 93 %, joint 'main' 6 %". Parts with
-/// equal percentages keep the order of the model: rounding errors do not change the list.
+/// Lists the parts with a rounded share of 5 % of the energy or more, the largest first: "element 'rod' 93 %, joint
+/// 'main' 6 %". Parts with equal percentages keep the order of the model, which rounding errors do not change.
 std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   std::vector<std::pair<long, std::string>> percents;
   for (Eigen::Index k = 0; k < parts.share.rows(); ++k)
@@ -169,7 +169,8 @@ void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
       std::count_if(modes.begin(), modes.end(), [](const Mode& mode) { return mode.kind != ModeKind::rigid; });
   if (report.found.all)
     summary.text += modes.empty() ? "  nothing can move\n" : "  these are all modes of the mechanism\n";
-  else if (report.harmonic && !options_.search.below && moving < options_.search.count)
+  else if (report.harmonic && report.turning->unresolved == 0 && !options_.search.below &&
+           moving < options_.search.count)
     summary.text += fmt::format(
         "  warning: {} of the {} modes that were asked for were found: another motion resembles a copy of one of "
         "these, whose frequency differs by a "

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/linearised/mean_forces.hpp"
+#include "mechanism/solvers/linearised/residual_sizes.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_solves.hpp"
@@ -171,23 +171,9 @@ class TurnedEquations {
     VectorX unused(system_.size());
     forces_.residual(turned, unused, &scale);
     constexpr double balanced = 1e-6;  // relative to the largest force: equilibria are found to 1e-9
-    // If all forces of a kind are rounding errors, they are judged relative to the forces of the other kind.
-    const double length = model_length(turned);
-    double stiffest = 0;
-    for (Eigen::Index k = 0; k < K.nonZeros(); ++k) stiffest = std::max(stiffest, std::abs(K.valuePtr()[k]));
-    const double rounding = 16 * std::numeric_limits<double>::epsilon() * stiffest * length;
-    scale[Kind::translation] = std::max(scale[Kind::translation], rounding / balanced);
-    scale[Kind::rotation] = std::max(scale[Kind::rotation], length * scale[Kind::translation]);
-    scale[Kind::translation] = std::max(scale[Kind::translation], scale[Kind::rotation] / length);
-    // A force on an amplitude is compared with the others by the energies at which each deforms its own stiffness: all
-    // forces on amplitudes may be rounding as well.
-    const auto size = [&](int i) {
-      const Kind kind = system_.kind(i);
-      if (kind != Kind::amplitude || !(stiffest > 0)) return scale[kind];
-      return std::max(scale[kind], scale[Kind::translation] * std::sqrt(std::abs(K.coeff(i, i)) / stiffest));
-    };
+    const VectorX sizes = residual_sizes(system_, K, scale, model_length(turned), balanced);
     for (int i = 0; i < system_.dofs(); ++i)
-      if (std::abs(residual[i]) > balanced * size(i))
+      if (std::abs(residual[i]) > balanced * sizes[i])
         throw ComputationError(fmt::format(
             "the rotation is not steady: {} is not the same after a turn by {:.3g} degrees (it changes by "
             "{:.3g} {}): something resists or drives the part at some azimuths only",

@@ -262,13 +262,16 @@ HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOpt
   }
   if (modes) {
     HarmonicModes more = *modes;
-    if (add_resonant_motions(equations_, shapes_, more))
-      if (std::optional<HarmonicModes> both = converged(std::move(more), most)) modes = std::move(both);
+    if (add_resonant_motions(equations_, shapes_, more)) {
+      modes = converged(more, most);
+      if (!modes) modes = std::move(more);
+    }
     complete(options, *modes);
     return *std::move(modes);
   }
   HarmonicModes in_place = mean_->find(options);
   in_place.unresolved = most;
+  in_place.all = false;
   return in_place;
 }
 
@@ -305,8 +308,21 @@ HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least)
 
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
-  const std::optional<HarmonicModes> mean = modes_of_mean(options);
-  if (mean) return find_from(*mean, options, least);
+  if (const std::optional<HarmonicModes> mean = modes_of_mean(options)) {
+    HarmonicModes modes = find_from(*mean, options, least);
+    // Two decays about the mean state may be one oscillation about the periodic motion.
+    const auto decays = [](const HarmonicMode& each) { return each.mode.s.imag() == 0; };
+    if (modes.unresolved == 0 || std::none_of(mean->modes.begin(), mean->modes.end(), decays)) return modes;
+    try {
+      return find_resonant(options, least);
+    } catch (const ComputationError&) {
+      return modes;  // those about the mean state, which the summary says
+    }
+  }
+  return find_resonant(options, least);
+}
+
+HarmonicModes HarmonicSearch::find_resonant(const ModeOptions& options, int least) const {
   HarmonicModes modes = find_freely(options, least);
   if (!options.near && add_resonant_motions(equations_, shapes_, modes)) complete(options, modes);
   sort_by_rate(modes.modes);  // further harmonics change the order

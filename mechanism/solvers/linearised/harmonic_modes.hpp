@@ -38,6 +38,7 @@ class HarmonicSearch {
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   HarmonicModes find_freely(const ModeOptions& options, int least) const;
+  HarmonicModes find_resonant(const ModeOptions& options, int least) const;
   HarmonicModes find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const;
   std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
   std::optional<HarmonicModes> converged(HarmonicModes modes, int most) const;

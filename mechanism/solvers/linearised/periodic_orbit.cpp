@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "mechanism/solvers/linearised/harmonic_equations.hpp"
 #include "mechanism/solvers/linearised/loose_motions.hpp"
 #include "mechanism/solvers/linearised/orbit_equations.hpp"
+#include "mechanism/solvers/linearised/residual_sizes.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/error.hpp"
@@ -52,7 +52,7 @@ class OrbitSearch {
         orbit.q.resize(equations_->unknowns(), 0);
         orbit.l.resize(equations_->constraints(), 0);
         orbit.extend(h);
-        calc_scale(orbit);
+        calc_sizes(orbit);
         const HarmonicResidual first = residual(orbit);
         if (first.size <= alternates) return std::nullopt;
         followed = follow(first, orbit);
@@ -114,22 +114,15 @@ class OrbitSearch {
   }
 
   /// Sets the forces relative to which residuals are small: the largest over a turn, and rounding of the stiffness.
-  void calc_scale(const PeriodicDeviation& orbit) {
-    scale_ = {};
-    double stiffest = 0;
+  void calc_sizes(const PeriodicDeviation& orbit) {
+    ResidualScale scale;
     for (int k = 0; k < equations_->count(); ++k) {
       ResidualScale here;
       equations_->residual(k, orbit, &here);
-      for (std::size_t i = 0; i < kind_count; ++i) scale_.largest[i] = std::max(scale_.largest[i], here.largest[i]);
+      for (std::size_t i = 0; i < kind_count; ++i) scale.largest[i] = std::max(scale.largest[i], here.largest[i]);
     }
-    const LinearisedEquations::Sparse& K = equations_->mean(0).equations.K;
-    for (Eigen::Index k = 0; k < K.nonZeros(); ++k) stiffest = std::max(stiffest, std::abs(K.valuePtr()[k]));
     constexpr double share = 1e-9;
-    const double rounding = 16 * std::numeric_limits<double>::epsilon() * stiffest * length_ / share;
-    double& force = scale_[Kind::translation];
-    double& moment = scale_[Kind::rotation];
-    force = std::max({force, rounding, moment / length_});
-    moment = std::max(moment, length_ * force);
+    sizes_ = residual_sizes(system_, equations_->mean(0).equations.K, scale, length_, share);
   }
 
   HarmonicResidual residual(const PeriodicDeviation& orbit) const {
@@ -149,10 +142,8 @@ class OrbitSearch {
 
   void measure(HarmonicResidual& r) const {
     r.size = 0;
-    for (Eigen::Index i = 0; i < r.forces.rows(); ++i) {
-      const double scale = scale_[system_.kind(static_cast<int>(i))];
-      if (scale > 0) r.size = std::max(r.size, r.forces.row(i).cwiseAbs().maxCoeff() / scale);
-    }
+    for (Eigen::Index i = 0; i < r.forces.rows(); ++i)
+      if (sizes_[i] > 0) r.size = std::max(r.size, r.forces.row(i).cwiseAbs().maxCoeff() / sizes_[i]);
     for (Eigen::Index i = 0; i < r.gaps.rows(); ++i)
       r.size = std::max(r.size, r.gaps.row(i).cwiseAbs().maxCoeff() /
                                     gap_sizes_[equations_->mean(0).equations.multiplier[static_cast<std::size_t>(i)]]);
@@ -311,7 +302,7 @@ class OrbitSearch {
   double rate_, length_;
   double made_ = 0;  ///< fraction of the alternating forces up to which the motion was last followed
   VectorX gap_sizes_;
-  ResidualScale scale_;
+  VectorX sizes_;                     ///< of forces, relative to which residuals are small
   bool free_ = false, held_ = false;  ///< whether no drive acts on the joint; whether a drive prescribes its angle
   std::unique_ptr<const OrbitEquations> equations_;
   std::unique_ptr<const PeriodicEquations> periodic_;

@@ -228,6 +228,57 @@ TEST_CASE("overdamped blades without coupling have as many slow decays as blades
   }
 }
 
+TEST_CASE("strongly damped blades have two exponents each in parametric resonance, which add up to the damping",
+          "[linearised]") {
+  constexpr double inertia = 0.38;
+  struct Case {
+    double rate, damping;
+    int turns;  ///< frequency in multiples of half the rate
+  };
+  for (const Case& each : {Case{2, 9.58, 0}, Case{3, 9.3, 0}, Case{6, 10, 1}, Case{6, 9.6, 1}})
+    for (const int count : {1, 2, 3, 4}) {
+      CAPTURE(each.rate, each.damping, count);
+      const std::string text = blades(count, 60, std::nullopt, fmt::format("rate: {}", each.rate), each.damping);
+      const Turning turning(text, each.rate);
+      CHECK(turning.report.found.all);
+      const std::vector<Complex> found = turning.exponents();
+      REQUIRE(found.size() == 2 * static_cast<std::size_t>(count));
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK(found[k].imag() == Approx(each.turns * each.rate / 2));
+        const Complex other = found[found.size() - 1 - k];
+        CHECK(found[k].real() + other.real() == Approx(-each.damping / inertia).epsilon(1e-6));
+        CHECK(std::abs(found[k].real() - other.real()) > 0.1);
+      }
+    }
+}
+
+TEST_CASE("a blade that is overdamped about its mean state may oscillate about its periodic motion", "[linearised]") {
+  // Exponents -13.289 +- 2.304 i by an integration of the equation over a turn, which adds up to -c/J.
+  const Turning turning(blades(1, 60, std::nullopt, "rate: 6", 10.1), 6);
+  const std::vector<Complex> found = turning.exponents();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].real() == Approx(-10.1 / 0.38 / 2).epsilon(1e-6));
+  CHECK(std::abs(std::remainder(found[0].imag(), 6)) == Approx(2.304).margin(1e-3));
+}
+
+TEST_CASE("an oscillation that has half the rate as its frequency by chance is one mode", "[linearised]") {
+  // sqrt(k/m - (c/2m)^2) = 3 rad/s
+  std::string text = blades(3, 60, std::nullopt);
+  const auto add = [&](const std::string& section, const std::string& entry) {
+    text.insert(text.find(section) + section.size(), entry);
+  };
+  add("nodes:\n", "  box: {fixed: [y, z, rx, ry, rz]}\n");
+  add("elements:\n", "  box: {type: point_mass, node: box, mass: 1}\n");
+  add("joints:\n",
+      "  tie: {type: bushing, nodes: [ground, box], stiffness: [9.25, 0, 0, 0, 0, 0], damping: [1, 0, 0, 0, 0, 0]}\n");
+  const Turning turning(text, 6);
+  CHECK(turning.report.found.all);
+  const std::vector<Complex> found = turning.exponents();
+  REQUIRE(found.size() == 4);
+  CHECK(found[0].real() == Approx(-0.5));
+  CHECK(found[0].imag() == Approx(3));
+}
+
 TEST_CASE("overdamped unequal blades have all modes, of which copies hide some about the mean state", "[linearised]") {
   const Turning turning(blades(3, 60, springs, "rate: 0.3", 19.1, 1.1), 0.3);
   CHECK(turning.report.found.all);

@@ -29,6 +29,7 @@ class Child {
     int ends[2];
     REQUIRE(pipe(ends) == 0);
     process_ = fork();
+    REQUIRE(process_ >= 0);
     if (process_ == 0) {
       close(ends[0]);
       action(ends[1]);
