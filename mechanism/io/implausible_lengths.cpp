@@ -16,8 +16,8 @@ namespace {
 
 /// Links of machines are shorter than this in metres, and longer in millimetres [m].
 constexpr double longest_usual = 10;
-/// Smallest usual ratio of the radius of gyration to the distance of joints. A bar has a ratio of 0.29, and a thousandth
-/// of this if units are mixed up.
+/// Smallest usual ratio of the radius of gyration to the distance of joints. A bar has a ratio of 0.29, and a
+/// thousandth of this if units are mixed up.
 constexpr double least_usual = 1.0 / 300;
 
 /// Returns the points at which joints act on each node, in the inertial frame at the start.
