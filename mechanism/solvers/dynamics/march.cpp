@@ -200,14 +200,20 @@ double March::locate(double time, StepReport& report) {
   return report.converged() ? watch_.behind() : 0;
 }
 
-/// Processes the events at the end of an accepted step.
+/// Processes the events at the end of an accepted step. Events accumulate at an instant if they follow each other at
+/// once many times, or ever faster until their intervals are rounding errors (Zeno's paradox): the next one could be
+/// missed.
 void March::pass_events(MarchStep& step) {
-  const double time = integration_.state().time;
-  events_at_once_ = time - last_event_ <= 1e-7 * size_ ? events_at_once_ + 1 : 0;
+  const double time = integration_.state().time, interval = time - last_event_;
+  constexpr double at_once = 1e-7, negligible = 1e-10;  // relative to the step
+  constexpr long most = 1000, most_faster = 20;
+  events_at_once_ = interval <= at_once * size_ ? events_at_once_ + 1 : 0;
+  events_faster_ = interval > 0 && interval < last_interval_ ? events_faster_ + 1 : 0;
   last_event_ = time;
+  last_interval_ = interval;
   const std::vector<int> passed = watch_.pass();
-  constexpr long most = 1000;
-  if (events_at_once_ > most) throw_chattering(passed.front());
+  if (events_at_once_ > most || (events_faster_ > most_faster && interval < negligible * size_))
+    throw_chattering(passed.front());
   note(passed, step);
 }
 

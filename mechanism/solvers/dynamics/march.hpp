@@ -123,9 +123,11 @@ class March {
   PulseWatch pulses_;
   std::vector<int> crossed_;  ///< events at the start of the next step
   bool stopped_ = false;
-  bool begun_anew_ = false;  ///< the present step has its own start values
-  double last_event_ = 0;    ///< time of the last event [s]
-  long events_at_once_ = 0;  ///< consecutive events without progress
+  bool begun_anew_ = false;   ///< the present step has its own start values
+  double last_event_ = 0;     ///< time of the last event [s]
+  double last_interval_ = 0;  ///< between the last two events [s]
+  long events_at_once_ = 0;   ///< consecutive events without progress
+  long events_faster_ = 0;    ///< consecutive events with ever shorter intervals
   std::function<void(const Jump&)> jump_listener_;
   double size_ = 0, smallest_ = 0;
   MarchLog log_, before_;  ///< before_: log of the runs that this one continues

@@ -302,7 +302,7 @@ class OrbitSearch {
   double rate_, length_;
   double made_ = 0;  ///< fraction of the alternating forces up to which the motion was last followed
   VectorX gap_sizes_;
-  VectorX sizes_;                     ///< of forces, relative to which residuals are small
+  VectorX sizes_;                     ///< forces relative to which residuals are small
   bool free_ = false, held_ = false;  ///< whether no drive acts on the joint; whether a drive prescribes its angle
   std::unique_ptr<const OrbitEquations> equations_;
   std::unique_ptr<const PeriodicEquations> periodic_;

@@ -43,6 +43,36 @@ events: {{now: {{when: clock, crosses: {:.17g}, do: [{{release: holder}}]}}}}
 
 }  // namespace
 
+TEST_CASE("a released contact, bushing or load acts no more") {
+  // The ball starts in equilibrium: the floor carries the weight m g = 10 N with the depth m g / k. The push of 3 N
+  // along the floor without friction ends as well.
+  const double time = GENERATE(0.1, 0.1037);
+  const double g = 10, depth = g / 1e6;
+  Session session = session_of(fmt::format(R"yaml(
+gravity: [0, 0, -10]
+nodes: {{ball: {{position: [0, 0, {:.17g}]}}, hung: {{position: [5, 0, 0]}}}}
+elements:
+  ball: {{type: rigid_body, node: ball, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  hung: {{type: rigid_body, node: hung, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  floor: {{type: contact, shapes: [{{node: ground, plane: [0, 0, 1]}}, {{node: ball, sphere: 0.1}}], stiffness: 1e6}}
+  bush: {{type: bushing, nodes: [ground, hung], stiffness: [1e4, 1e4, 1e4, 10, 10, 10], preload: [0, 0, -10, 0, 0, 0]}}
+loads: {{push: {{node: ball, force: [3, 0, 0]}}}}
+states: {{clock: {{rate: 1}}}}
+events: {{now: {{when: clock, crosses: {:.17g}, do: [{{release: floor}}, {{release: bush}}, {{release: push}}]}}}}
+)yaml",
+                                           0.1 - depth, time));
+  Motion motion = session.dynamics(steps_of(0.4, 0.005));
+  motion.advance_to(0.09);
+  CHECK(position(session, "ball").z() == Approx(0.1 - depth).epsilon(1e-9));
+  CHECK(std::abs(position(session, "hung").z()) < 1e-12);
+  motion.finish();
+  const double left = 0.4 - time, fall = g / 2 * left * left;
+  CHECK(position(session, "ball").z() == Approx(0.1 - depth - fall).epsilon(1e-6));
+  CHECK(position(session, "hung").z() == Approx(-fall).epsilon(1e-6));
+  CHECK(velocity(session, "ball").x() == Approx(3 * time).epsilon(1e-6));
+}
+
 TEST_CASE("a mass falls freely from the instant at which its link is released") {
   const std::string holder =
       GENERATE("holder: {type: distance, nodes: [ground, mass]}", "holder: {type: rigid, nodes: [ground, mass]}",

@@ -240,6 +240,27 @@ events:
   CHECK_THAT(message_of<ComputationError>([&] { motion.finish(); }), Contains("is met again and again"));
 }
 
+TEST_CASE("events whose intervals shrink to nothing end the run with a sentence, at the instant of their limit") {
+  // Two tanks that leak 0.5 each, and are filled with 0.75 in turns (K. H. Johansson et al., Syst. Control Lett. 38
+  // (1999) 141): they lose 0.25 together, and are empty at t = (x + y) / 0.25 after endless switches.
+  for (const double y : {1.0, 0.613}) {
+    Session session = session_of(fmt::format(R"yaml(
+inputs: {{u: 1}}
+states:
+  x: {{rate: "0.75*u - 0.5", start: 1}}
+  y: {{rate: "0.75*(1-u) - 0.5", start: {}}}
+events:
+  a: {{when: x, crosses: 0, direction: falling, do: [{{set: {{u: 1}}}}], once: false}}
+  b: {{when: y, crosses: 0, direction: falling, do: [{{set: {{u: 0}}}}], once: false}}
+)yaml",
+                                             y));
+    Motion motion = session.dynamics(steps_of(12, 0.01));
+    const std::string message = message_of<ComputationError>([&] { motion.finish(); });
+    CHECK_THAT(message, Contains("is met again and again"));
+    CHECK_THAT(message, Contains(fmt::format("t = {:.6g} s", (1 + y) / 0.25)));
+  }
+}
+
 TEST_CASE("kinematics do what needs no inertia, and refuse the rest") {
   const auto text = [](const std::string& action) {
     return "nodes: {arm: {position: [1, 0, 0]}}\n"
