@@ -163,9 +163,9 @@ StepReport March::attempt(double h, double end, bool kink) {
   constexpr double small = 1e-6;  // relevant time constants are longer
   // A step of this fraction is shorter than all relevant time constants.
   const bool cut = !begun_anew_ && h < 0.49 * size_;
-  const StepReport report = is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_)
-                            : cut       ? integration_.attempt_settled(h, end, kink)
-                                        : integration_.attempt(h, end, kink);
+  StepReport report = is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_)
+                      : cut       ? integration_.attempt_settled(h, end, kink)
+                                  : integration_.attempt(h, end, kink);
   log_.iterations += report.iterations;
   log_.factorisations += report.factorisations;
   log_.shortened += report.shortened;

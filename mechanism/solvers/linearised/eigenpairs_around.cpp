@@ -24,13 +24,13 @@ OperatorEigenpairs search_complement(const ShiftedOperator& T, const MatrixX& Q,
   using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   if (basis) {
-    const Matrix V = basis->cast<Scalar>();
+    const Matrix& V = basis->cast<Scalar>();
     return largest_eigenpairs(
         LinearOperator<Scalar>{V.cols(),
                                [&](const Vector& z) { return Vector(V.transpose() * T.apply(Vector(V * z))); }},
         count, options);
   }
-  const Matrix known = Q.cast<Scalar>();
+  const Matrix& known = Q.cast<Scalar>();
   const auto without = [&](Vector x) {
     for (int twice = 0; twice < 2 && known.cols() > 0; ++twice) {
       const Vector parts = known.transpose() * x;

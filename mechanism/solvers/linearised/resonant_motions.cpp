@@ -155,7 +155,8 @@ class ResonantMotions {
     constexpr double one_sided = 0.75;
     const auto count = static_cast<Eigen::Index>(real.size());
     const Eigen::Index columns = real.front().u.cols();
-    const double middle = static_cast<double>(columns / 2) - 0.5 * std::copysign(halves, equations_.rate());
+    const Eigen::Index zeroth = columns / 2;
+    const double middle = static_cast<double>(zeroth) - 0.5 * std::copysign(halves, equations_.rate());
     const auto products = [&](bool one_side) {
       MatrixXc vectors(modes_.equations.unknowns(), count);
       for (Eigen::Index j = 0; j < count; ++j) {
