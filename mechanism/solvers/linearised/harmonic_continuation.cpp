@@ -69,13 +69,10 @@ void improve_well(const LinearisedEquations& equations, double rate, std::unique
 
 /// Takes the copy of a motion whose exponent is larger by a multiple of i rate.
 void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) {
-  const Eigen::Index count = u.cols();
   s += Complex(0, multiple * rate);
   for (Eigen::MatrixXcd* each : {&u, &w}) {
-    Eigen::MatrixXcd moved = Eigen::MatrixXcd::Zero(each->rows(), count);
-    for (Eigen::Index k = 0; k < count; ++k)
-      if (k + multiple >= 0 && k + multiple < count) moved.col(k) = each->col(k + multiple);
-    *each = s.imag() < 0 ? Eigen::MatrixXcd(moved.rowwise().reverse().conjugate()) : moved;
+    const Eigen::MatrixXcd copy = copied(*each, multiple);
+    *each = s.imag() < 0 ? Eigen::MatrixXcd(copy.rowwise().reverse().conjugate()) : copy;
   }
   if (s.imag() < 0) s = std::conj(s);
 }
@@ -86,6 +83,14 @@ Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
   Eigen::MatrixXcd wide = Eigen::MatrixXcd::Zero(amplitudes.rows(), 2 * h + 1);
   wide.middleCols(h - amplitudes.cols() / 2, amplitudes.cols()) = amplitudes;
   return wide;
+}
+
+Eigen::MatrixXcd copied(const Eigen::MatrixXcd& amplitudes, int multiple) {
+  const Eigen::Index count = amplitudes.cols();
+  Eigen::MatrixXcd copy = Eigen::MatrixXcd::Zero(amplitudes.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (k + multiple >= 0 && k + multiple < count) copy.col(k) = amplitudes.col(k + multiple);
+  return copy;
 }
 
 Modes HarmonicModes::found() const {

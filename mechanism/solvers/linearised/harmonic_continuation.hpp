@@ -43,6 +43,10 @@ struct HarmonicModes {
 /// Returns the amplitudes with zeros for further harmonics.
 Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h);
 
+/// Returns the amplitudes of the copy of a motion whose exponent is larger by a multiple of i rate: those of harmonic
+/// k + multiple at k, without those beyond the last one.
+Eigen::MatrixXcd copied(const Eigen::MatrixXcd& amplitudes, int multiple);
+
 /// Whether a motion is one of the modes, or a copy of one. @param u  as many harmonics as they have @param s  exponent
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
               std::complex<double> s);

@@ -55,8 +55,8 @@ class ResonantMotions {
   /// equations is one.
   void add_with(double turns) {
     exponents_.clear();
-    constexpr Eigen::Index others = 4,
-                           many = 24;  // copies of the azimuth and of the shift in time, and of other motions
+    // Copies of the azimuth and of the shift in time, and of other motions.
+    constexpr Eigen::Index others = 4, many = 24;
     Eigen::Index locked = 0;
     for (const HarmonicMode& each : modes_.modes) {
       const Complex s = each.mode.s;
@@ -179,13 +179,7 @@ class ResonantMotions {
 
   /// Returns the copy of the conjugate shape that has the same exponent, whose frequency is m rate / 2.
   MatrixXc conjugate(const MatrixXc& shape, int m) const {
-    const int turns = equations_.rate() > 0 ? m : -m;
-    const Eigen::Index count = shape.cols(), h = count / 2;
-    MatrixXc result = MatrixXc::Zero(shape.rows(), count);
-    for (Eigen::Index k = -h; k <= h; ++k)
-      if (const Eigen::Index from = -turns - k; std::abs(from) <= h)
-        result.col(h + k) = shape.col(h + from).conjugate();
-    return result;
+    return copied(shape.rowwise().reverse().conjugate(), equations_.rate() > 0 ? m : -m);
   }
 
   /// Returns orthogonal shapes of the same span that are equal to their conjugate copies. Harmonics that are left out
