@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "reduce/mesh/extracted_model.hpp"
 #include "reduce/mesh/faces.hpp"
-#include "reduce/mesh/gmsh_model.hpp"
 
 namespace bielle::reduce {
 

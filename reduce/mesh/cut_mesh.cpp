@@ -18,14 +18,14 @@ namespace bielle::reduce {
 
 namespace {
 
-using Sides = std::vector<bool>;  // for each plane, whether a cell is on the side of its normal
+using PlaneSides = std::vector<bool>;  // for each plane, whether a cell is on the side of its normal
 
-std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>& planes) {
+std::vector<PlaneSides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>& planes) {
   const SolidCells cells(mesh);
-  std::vector<Sides> sides;
+  std::vector<PlaneSides> sides;
   for (int e = 0; e < cells.size(); ++e) {
     const Eigen::Vector3d centroid = cells.corner_points(e).rowwise().mean();
-    Sides of_cell;
+    PlaneSides of_cell;
     for (const CutPlane& plane : planes) of_cell.push_back(plane.normal.dot(centroid - plane.point) > 0);
     sides.push_back(of_cell);
   }
@@ -33,11 +33,11 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>&
 }
 
 // Number of the piece of each cell, from 0: a piece consists of cells on the same sides that are connected by nodes.
-std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& sides) {
+std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<PlaneSides>& sides) {
   const SolidCells cells(mesh);
   const int count = cells.size();
   DisjointSets sets(count);
-  std::map<Sides, std::vector<int>> first_cells;  // first cells of each node, by their sides
+  std::map<PlaneSides, std::vector<int>> first_cells;  // first cells of each node, by their sides
   for (int e = 0; e < count; ++e) {
     std::vector<int>& first = first_cells.try_emplace(sides[e], mesh.point_count(), -1).first->second;
     for (const int node : cells.vertices(e)) {
@@ -81,7 +81,7 @@ struct CutFace {
 };
 
 // The plane between two cells of different pieces. @throws InputError when there are several
-std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, const std::array<Sides, 2>& sides,
+std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, const std::array<PlaneSides, 2>& sides,
                           const std::vector<CutPlane>& planes) {
   std::vector<std::size_t> between;
   for (std::size_t k = 0; k < planes.size(); ++k)
@@ -95,11 +95,11 @@ std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, con
                   place_name(mesh.points.col(SolidCells(mesh).nodes(cells[0])(0)))));
 }
 
-// Sides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
-std::map<int, Sides> sides_of_pieces(const std::vector<Sides>& sides, const std::vector<int>& pieces) {
-  std::map<int, std::map<Sides, int>> votes;
+// PlaneSides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
+std::map<int, PlaneSides> sides_of_pieces(const std::vector<PlaneSides>& sides, const std::vector<int>& pieces) {
+  std::map<int, std::map<PlaneSides, int>> votes;
   for (std::size_t e = 0; e < sides.size(); ++e) ++votes[pieces[e]][sides[e]];
-  std::map<int, Sides> result;
+  std::map<int, PlaneSides> result;
   for (const auto& [piece, of_piece] : votes)
     result[piece] = std::max_element(of_piece.begin(), of_piece.end(), [](const auto& a, const auto& b) {
                       return a.second < b.second;
@@ -107,9 +107,9 @@ std::map<int, Sides> sides_of_pieces(const std::vector<Sides>& sides, const std:
   return result;
 }
 
-std::vector<CutFace> faces_between(const Mesh& mesh, const FaceTable& faces, const std::vector<Sides>& sides,
+std::vector<CutFace> faces_between(const Mesh& mesh, const FaceTable& faces, const std::vector<PlaneSides>& sides,
                                    const std::vector<int>& pieces, const std::vector<CutPlane>& planes) {
-  const std::map<int, Sides> of_piece = sides_of_pieces(sides, pieces);
+  const std::map<int, PlaneSides> of_piece = sides_of_pieces(sides, pieces);
   std::vector<CutFace> result;
   for (int face = 0; face < faces.size(); ++face) {
     if (faces.on_boundary(face)) continue;
@@ -232,7 +232,7 @@ CutSurfaces connected_cuts(const Mesh& mesh, const FaceTable& faces, std::vector
 
 CutMesh cut_mesh(const Mesh& mesh, const std::vector<CutPlane>& planes, const std::string& first) {
   const FaceTable faces(mesh);
-  const std::vector<Sides> sides = sides_of_cells(mesh, planes);
+  const std::vector<PlaneSides> sides = sides_of_cells(mesh, planes);
   std::vector<int> pieces = connected_pieces(mesh, sides);
   join_islands(mesh, pieces);
   const int count = renumber(pieces);

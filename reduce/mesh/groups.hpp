@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "reduce/mesh/extracted_model.hpp"
 #include "reduce/mesh/faces.hpp"
-#include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/mesh.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 

@@ -11,6 +11,7 @@ set(BIELLE_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/Bielle)
 set(BIELLE_INSTALL_TOOLS ${CMAKE_INSTALL_DATADIR}/bielle/tools)
 
 install(TARGETS bielle-reduce bielle-mechanism RUNTIME COMPONENT programs)
+install(TARGETS bielle-gmsh LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/bielle COMPONENT programs)
 if(TARGET bielle-reduce-mpi)
   install(TARGETS bielle-reduce-mpi RUNTIME COMPONENT mpi)
 endif()

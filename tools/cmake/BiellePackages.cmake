@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libarpack2-dev, libhdf5-dev, libyaml-dev, libudunits2-dev, nlohmann-json3-dev, libmuparser-dev, libcli11-dev, libfmt-dev, libgmsh-dev")
 
 get_property(packaged GLOBAL PROPERTY BIELLE_LIBRARIES)
-list(APPEND packaged bielle-reduce bielle-mechanism)
+list(APPEND packaged bielle-reduce bielle-gmsh bielle-mechanism)
 get_property(folder GLOBAL PROPERTY BIELLE_PYTHON_FOLDER)
 if(folder)
   list(APPEND CPACK_COMPONENTS_ALL python)

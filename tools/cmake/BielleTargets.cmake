@@ -80,6 +80,9 @@ function(bielle_tests name)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings bielle_test_options)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   BIELLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if("${ARG_DEPENDS}" MATCHES "Bielle::(mesh|test_meshes|fe|reduction|body_file|report|matrices|distributed)")
+    add_dependencies(test_${name} bielle-gmsh)  # loaded at run time
+  endif()
   bielle_precompile(test_${name} bielle_test_precompiled)
   set_target_properties(test_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   foreach(source ${ARG_SOURCES})

@@ -9,7 +9,7 @@
 
 #include "reduce/common/progress.hpp"
 #include "reduce/fe/solid.hpp"
-#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 #include "reduce/mesh/import.hpp"
 #include "tests/support/temporary_folder.hpp"
 

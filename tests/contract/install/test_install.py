@@ -38,6 +38,24 @@ class Install(unittest.TestCase):
         for program in "bielle-reduce", "bielle-mechanism":
             self.assertIn(program, run(self.installed("bin", program), "--version"))
 
+    def test_the_module_of_gmsh_is_the_installed_one(self):
+        geometry = os.path.join(self.folder.name, "box.geo")
+        with open(geometry, "w", encoding="utf-8") as file:
+            file.write('SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 1, 2, 3};\n')
+        command = self.installed("bin", "bielle-reduce"), "--list", geometry
+        self.assertIn("volume 1: 6 m^3", run(*command))
+        module = self.installed("lib", "bielle", "bielle-gmsh.so")
+        os.rename(module, module + ".sound")
+        try:
+            with open(module, "w", encoding="utf-8") as file:
+                file.write("no library")
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+        finally:
+            os.rename(module + ".sound", module)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"the module that reads and meshes bodies by gmsh cannot be loaded: {module}: ", done.stderr)
+        self.assertIn("install Bielle again", done.stderr)
+
     def test_tools_run_from_the_folder_of_programs(self):
         for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-loads", "bielle-exchange", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-study":
             self.assertIn("usage", run(self.installed("bin", tool), "--help").lower())

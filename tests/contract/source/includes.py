@@ -10,7 +10,7 @@ import re
 
 # "" is the program's own folder, which contains main.
 FOLDERS = {
-    "reduce": ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "matrices", "distributed", "distributed/ranks",
+    "reduce": ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "sparse", "spectral", "superelement", "mesh", "mesh/gmsh", "fe", "reduction", "matrices", "distributed", "distributed/ranks",
                "body_file", "report", ""],
     "mechanism": ["math", "drawing", "model", "reading", "language", "measures", "laws", "contacts", "drawing/reading",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",

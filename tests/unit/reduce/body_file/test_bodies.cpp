@@ -8,6 +8,7 @@
 
 #include "reduce/body_file/body_file.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/gmsh/volumes.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/mesh/measures.hpp"
 #include "reduce/report/summary.hpp"

@@ -7,7 +7,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/corners.hpp"
-#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 #include "reduce/mesh/import.hpp"
 #include "tests/support/messages.hpp"
 

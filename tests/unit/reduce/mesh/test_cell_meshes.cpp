@@ -14,7 +14,7 @@
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/cut_mesh.hpp"
 #include "reduce/mesh/faces.hpp"
-#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 #include "reduce/mesh/jacobian.hpp"
 #include "reduce/mesh/measures.hpp"
 #include "reduce/mesh/selectors.hpp"

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "reduce/mesh/gmsh/volumes.hpp"
 #include "reduce/mesh/measures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "reduce/mesh/describe_solids.hpp"
+#include "reduce/mesh/gmsh/describe_solids.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 #include <gmsh.h>
 
-#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/gmsh/model.hpp"
+#include "reduce/mesh/gmsh/solids.hpp"
 #include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/place.hpp"
-#include "reduce/mesh/solids.hpp"
 
 namespace bielle::reduce {
 

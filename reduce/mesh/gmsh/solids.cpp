@@ -1,4 +1,4 @@
-#include "reduce/mesh/solids.hpp"
+#include "reduce/mesh/gmsh/solids.hpp"
 
 #include <algorithm>
 

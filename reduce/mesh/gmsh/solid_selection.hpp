@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "reduce/mesh/gmsh/solids.hpp"
 #include "reduce/mesh/mesh_request.hpp"
-#include "reduce/mesh/solids.hpp"
 #include "reduce/mesh/source_file.hpp"
 
 namespace bielle::reduce {

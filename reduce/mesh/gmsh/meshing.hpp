@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 
 namespace bielle::reduce {
 

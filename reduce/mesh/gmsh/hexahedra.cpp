@@ -1,4 +1,4 @@
-#include "reduce/mesh/hexahedra.hpp"
+#include "reduce/mesh/gmsh/hexahedra.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "reduce/mesh/gluing.hpp"
+#include "reduce/mesh/gmsh/gluing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "reduce/common/percent.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/disjoint_sets.hpp"
-#include "reduce/mesh/fragments.hpp"
+#include "reduce/mesh/gmsh/fragments.hpp"
 
 namespace bielle::reduce {
 

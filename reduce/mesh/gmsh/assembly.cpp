@@ -1,4 +1,4 @@
-#include "reduce/mesh/assembly.hpp"
+#include "reduce/mesh/gmsh/assembly.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "reduce/mesh/gluing.hpp"
+#include "reduce/mesh/gmsh/gluing.hpp"
+#include "reduce/mesh/gmsh/healing.hpp"
+#include "reduce/mesh/gmsh/solid_selection.hpp"
+#include "reduce/mesh/gmsh/solids.hpp"
 #include "reduce/mesh/groups.hpp"
-#include "reduce/mesh/healing.hpp"
-#include "reduce/mesh/solid_selection.hpp"
-#include "reduce/mesh/solids.hpp"
 
 namespace bielle::reduce {
 

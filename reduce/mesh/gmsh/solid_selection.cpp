@@ -1,4 +1,4 @@
-#include "reduce/mesh/solid_selection.hpp"
+#include "reduce/mesh/gmsh/solid_selection.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/sort_unique.hpp"
-#include "reduce/mesh/fragments.hpp"
+#include "reduce/mesh/gmsh/fragments.hpp"
 #include "reduce/mesh/groups.hpp"
 
 namespace bielle::reduce {

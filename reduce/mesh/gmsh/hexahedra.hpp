@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "reduce/mesh/gmsh_session.hpp"
-#include "reduce/mesh/meshing.hpp"
+#include "reduce/mesh/gmsh/meshing.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 
 namespace bielle::reduce {
 

@@ -1,4 +1,4 @@
-#include "reduce/mesh/mesh_geometry.hpp"
+#include "reduce/mesh/gmsh/mesh_geometry.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,9 +9,9 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/common/sort_unique.hpp"
+#include "reduce/mesh/gmsh/hexahedra.hpp"
+#include "reduce/mesh/gmsh/meshing.hpp"
 #include "reduce/mesh/groups.hpp"
-#include "reduce/mesh/hexahedra.hpp"
-#include "reduce/mesh/meshing.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/selectors.hpp"
 

@@ -1,4 +1,4 @@
-#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/gmsh/model.hpp"
 
 #include <algorithm>
 #include <set>

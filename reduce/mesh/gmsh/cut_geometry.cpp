@@ -1,11 +1,11 @@
-#include "reduce/mesh/cut_geometry.hpp"
+#include "reduce/mesh/gmsh/cut_geometry.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gmsh.h>
 
 #include "reduce/common/progress.hpp"
-#include "reduce/mesh/fragments.hpp"
+#include "reduce/mesh/gmsh/fragments.hpp"
 
 namespace bielle::reduce {
 

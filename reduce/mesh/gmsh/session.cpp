@@ -1,4 +1,4 @@
-#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/gmsh/session.hpp"
 
 #include <cstdio>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "reduce/mesh/meshing.hpp"
+#include "reduce/mesh/gmsh/meshing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/gmsh/model.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/mesh/source_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "reduce/mesh/healing.hpp"
+#include "reduce/mesh/gmsh/healing.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -6,7 +6,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/mesh/fragments.hpp"
+#include "reduce/mesh/gmsh/fragments.hpp"
 #include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/place.hpp"
 

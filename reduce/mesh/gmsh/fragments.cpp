@@ -1,4 +1,4 @@
-#include "reduce/mesh/fragments.hpp"
+#include "reduce/mesh/gmsh/fragments.hpp"
 
 #include <algorithm>
 #include <cstdlib>
