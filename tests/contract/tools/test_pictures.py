@@ -25,6 +25,7 @@ from bielle_tools.pictures.shot import Look, Shot  # noqa: E402
 from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.scene.stress_scale import ANCHORS, stress_colours  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")
 RED, BLUE = "#ff0000", "#0000ff"

@@ -9,6 +9,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 
 from in_folder import REPOSITORY, InFolder  # noqa: E402
+from shares import share  # noqa: E402
 
 TOOLS = os.path.join(REPOSITORY, "tools")
 COMMANDS = {"demo": [], "gallery": ["--list", "--jobs"], "manual": ["--no-pictures", "--jobs"], "package": ["--wheel"], "verify": ["--list", "--quick"]}
@@ -20,7 +21,7 @@ class Usage(InFolder):
                               stdin=subprocess.DEVNULL, env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]})
 
     def test_help_names_the_output_and_all_options(self):
-        for name, options in COMMANDS.items():
+        for name, options in share(list(COMMANDS.items())):
             for word in ("--help", "-h"):
                 with self.subTest(f"{name} {word}"):
                     done = self.tool(name, word)
@@ -30,7 +31,7 @@ class Usage(InFolder):
                     self.assertNotIn("set -euo", done.stdout)
 
     def test_wrong_words_end_the_command_before_it_works(self):
-        for name, options in COMMANDS.items():
+        for name, options in share(list(COMMANDS.items())):
             wrong = [(["--outptu", "x"], "'--outptu' is not an option; did you mean '--output'?"), (["--fast"], "'--fast' is not an option"),
                      (["-o"], "--help shows the options"), (["--output"], "--help shows the options")]
             wrong += [([option[:-1] + "xy"], "is not an option; did you mean '" + option) for option in options]
