@@ -497,12 +497,12 @@ TEST_CASE("a pendulum that turns over keeps its energy", "[linearised]") {
   CHECK(orbit.deviation.rate_at(0.25 * two_pi)[rotation] < -1);  // slow at the top
 }
 
-TEST_CASE("a damped rotor without a periodic motion near its mean state is refused", "[linearised]") {
+TEST_CASE("a damped rotor without a periodic motion near its mean state is refused", "[linearised][long]") {
   CHECK_THROWS_WITH(Turning(unbalanced(", damping: [20, 20, 0, 0, 0, 0]"), 7),
                     Catch::Contains("no periodic motion at 7 rad/s") && Catch::Contains("a drive with a `rate`"));
 }
 
-TEST_CASE("a blade that the slow rotation alone centres has no periodic motion, as it tumbles", "[linearised][long]") {
+TEST_CASE("a blade that the slow rotation alone centres has no periodic motion, as it tumbles", "[linearised]") {
   CHECK_THROWS_WITH(Turning(blades(1, 0, std::nullopt, "rate: 0.5"), 0.5), Catch::Contains("no periodic motion"));
 }
 
