@@ -110,7 +110,7 @@ TEST_CASE("A hollow sphere under internal pressure: Lame's displacements and hoo
     const Mesh mesh = round_body(
         "Sphere(1) = {0, 0, 0, 0.2, 0, Pi/2, Pi/2}; Sphere(2) = {0, 0, 0, 0.1, 0, Pi/2, Pi/2};\n"
         "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n",
-        0.024 / (1 + level), {{"bore", {ShapeSelector(BoxSelector{{0, 0, 0}, {a, a, a}})}, ""}});
+        0.02 / (1 + level), {{"bore", {ShapeSelector(BoxSelector{{0, 0, 0}, {a, a, a}})}, ""}});
     const test::SolidModel model(mesh, steel, [](const Eigen::Vector3d& x, int i) { return on_plane(x, i); });
     const SurfaceIntegrals bore = integrate_surface(mesh, "bore");
     CHECK(bore.area == Approx(std::numbers::pi * a * a / 2).epsilon(1e-4));
