@@ -71,11 +71,16 @@ function(bielle_library name)
   set_property(GLOBAL APPEND PROPERTY BIELLE_LIBRARIES bielle_${name})
 endfunction()
 
-# bielle_tests(NAME SOURCES test_a.cpp ... DEPENDS Bielle::x ... [LABELS long]): one Catch2 program; the cases of each of its
-# sources test_* are one ctest, "NAME: test_a". A ctest for each case would take a minute and a half more: that of starting a program,
-# with gmsh's libraries a tenth of a second, two thousand times.
+# Memory in huge pages: a page fault costs a virtual machine up to 20 us, and some tests have a million of them.
+# bielle-reduce sets it for itself.
+set(BIELLE_TEST_ENVIRONMENT GLIBC_TUNABLES=glibc.malloc.hugetlb=1)
+
+# bielle_tests(NAME SOURCES test_a.cpp ... DEPENDS Bielle::x ... [LABELS long] [WITH_LONG_CASES test_a ...]): one Catch2 program;
+# the cases of each of its sources test_* are one ctest, "NAME: test_a". A ctest for each case would take a minute and a half
+# more: that of starting a program, with gmsh's libraries a tenth of a second, two thousand times. Cases with the tag [long] in
+# the sources WITH_LONG_CASES are a ctest of their own, "NAME: long cases of test_a", with the label long.
 function(bielle_tests name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT;WITH_LONG_CASES" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings bielle_test_options)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -85,27 +90,41 @@ function(bielle_tests name)
   endif()
   bielle_precompile(test_${name} bielle_test_precompiled)
   set_target_properties(test_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+  set(environment ${BIELLE_TEST_ENVIRONMENT} ${ARG_ENVIRONMENT})
   foreach(source ${ARG_SOURCES})
     cmake_path(GET source STEM LAST_ONLY stem)
     if(stem MATCHES "^test_")  # the others help; a test without cases fails
-      add_test(NAME "${name}: ${stem}" COMMAND test_${name} --warn NoTests --filenames-as-tags "[#${stem}]")
-      set_tests_properties("${name}: ${stem}" PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 3600 ENVIRONMENT "${ARG_ENVIRONMENT}")
+      set(cases "[#${stem}]")
+      if(stem IN_LIST ARG_WITH_LONG_CASES)
+        set(cases "[#${stem}]~[long]")
+        add_test(NAME "${name}: long cases of ${stem}" COMMAND test_${name} --warn NoTests --filenames-as-tags "[#${stem}][long]")
+        set_tests_properties("${name}: long cases of ${stem}" PROPERTIES LABELS long TIMEOUT 3600 ENVIRONMENT "${environment}")
+      endif()
+      add_test(NAME "${name}: ${stem}" COMMAND test_${name} --warn NoTests --filenames-as-tags "${cases}")
+      set_tests_properties("${name}: ${stem}" PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 3600 ENVIRONMENT "${environment}")
     endif()
   endforeach()
 endfunction()
 
-# bielle_python_test(NAME MODULE [TIMEOUT seconds] [LABELS long] [ENVIRONMENT VARIABLE=value ...]): a unittest of Python, or
-# some of it, in the current folder. Debian's interpreter is named in full: its packages belong to no other. The compiled
+# bielle_python_test(NAME MODULE [SHARED] [TIMEOUT seconds] [LABELS long] [ENVIRONMENT VARIABLE=value ...]): a unittest of Python,
+# or some of it, in the current folder. Debian's interpreter is named in full: its packages belong to no other. The compiled
 # modules are kept in the build, so that the folders of the sources stay clean and no test compiles them again. Python 3.11
-# accepts a module without tests; ctest does not.
+# accepts a module without tests; ctest does not. SHARED: a third of the cases that the module divides (tests/contract/shares.py)
+# is run everyday, and the others in "NAME, the rest", with the label long.
 function(bielle_python_test name module)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED" "TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
+  if(ARG_SHARED)
+    bielle_python_test("${name}, the rest" "${module}" TIMEOUT ${ARG_TIMEOUT} LABELS long ENVIRONMENT ${ARG_ENVIRONMENT} BIELLE_SHARE=rest)
+    list(APPEND ARG_ENVIRONMENT BIELLE_SHARE=everyday)
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
   add_test(NAME "${name}" COMMAND /usr/bin/python3 -m unittest -v ${module} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set(environment BIELLE_PROGRAMS=${CMAKE_RUNTIME_OUTPUT_DIRECTORY} BIELLE_BUILD=${PROJECT_BINARY_DIR} PYTHONDONTWRITEBYTECODE=
+                  PYTHONPYCACHEPREFIX=${PROJECT_BINARY_DIR}/pycache ${BIELLE_TEST_ENVIRONMENT} ${ARG_ENVIRONMENT})
   set_tests_properties("${name}" PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" FAIL_REGULAR_EXPRESSION "\nRan 0 tests in "
-    ENVIRONMENT "BIELLE_PROGRAMS=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};BIELLE_BUILD=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=;PYTHONPYCACHEPREFIX=${PROJECT_BINARY_DIR}/pycache;${ARG_ENVIRONMENT}")
+    ENVIRONMENT "${environment}")
 endfunction()
 
 # bielle_uncritical(): the libraries of this folder that follow read, check and describe, and leave the computation to

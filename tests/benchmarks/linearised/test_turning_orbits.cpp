@@ -1,5 +1,6 @@
 // Small motions about periodic motions of rotors under gravity and out of balance (tests/references/turning_orbits.py).
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 
 #include "mechanism/analyses/campbell.hpp"
@@ -129,6 +130,54 @@ void check_table(const std::vector<Complex>& found, const ReferenceTable& table,
   }
 }
 
+/// Checks that each mode of a slow rotor is next to one of its mean state. @returns the exponents
+std::vector<Complex> check_next_to_mean(double rate) {
+  // Gravity changes the frequency of a blade, 12.6 rad/s, by up to 0.8 rad/s over a turn, which exceeds the lower
+  // rates.
+  CAPTURE(rate);
+  const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate));
+  const Turning turning(text, rate), mean(text, rate, true);
+  CHECK(count_rigid(turning.report) == 1);
+  const std::vector<Complex> found = turning.exponents();
+  std::vector<Complex> of_mean = mean.exponents();
+  REQUIRE(found.size() == 5);
+  REQUIRE(of_mean.size() == 5);
+  CHECK(turning.report.turning->unresolved == 0);
+  // The exponent that represents a motion is not one of its copies, which differ by multiples of the rate.
+  for (const Complex s : found) {
+    const auto nearest = std::min_element(of_mean.begin(), of_mean.end(),
+                                          [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
+    CAPTURE(s);
+    CHECK(std::abs(*nearest - s) < std::abs(rate));
+    of_mean.erase(nearest);
+  }
+  return found;
+}
+
+/// Checks the exponents of strongly damped blades in parametric resonance: two for each, which add up to the damping.
+void check_resonance(std::initializer_list<int> counts) {
+  constexpr double inertia = 0.38;
+  struct Case {
+    double rate, damping;
+    int turns;  ///< frequency in multiples of half the rate
+  };
+  for (const Case& each : {Case{2, 9.58, 0}, Case{3, 9.3, 0}, Case{6, 10, 1}, Case{6, 9.6, 1}})
+    for (const int count : counts) {
+      CAPTURE(each.rate, each.damping, count);
+      const std::string text = blades(count, 60, std::nullopt, fmt::format("rate: {}", each.rate), each.damping);
+      const Turning turning(text, each.rate);
+      CHECK(turning.report.found.all);
+      const std::vector<Complex> found = turning.exponents();
+      REQUIRE(found.size() == 2 * static_cast<std::size_t>(count));
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK(found[k].imag() == Approx(each.turns * each.rate / 2));
+        const Complex other = found[found.size() - 1 - k];
+        CHECK(found[k].real() + other.real() == Approx(-each.damping / inertia).epsilon(1e-6));
+        CHECK(std::abs(found[k].real() - other.real()) > 0.1);
+      }
+    }
+}
+
 }  // namespace
 
 TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear equations", "[linearised]") {
@@ -153,29 +202,13 @@ TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear eq
 
 TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations, next to those of the mean state",
           "[linearised]") {
-  // Gravity changes the frequency of a blade, 12.6 rad/s, by up to 0.8 rad/s over a turn, which exceeds the lower
-  // rates.
   const ReferenceTable table("turning_orbits");
-  for (const double rate : {1.0, 0.3, -0.3}) {
-    CAPTURE(rate);
-    const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate));
-    const Turning turning(text, rate), mean(text, rate, true);
-    CHECK(count_rigid(turning.report) == 1);
-    const std::vector<Complex> found = turning.exponents();
-    std::vector<Complex> of_mean = mean.exponents();
-    REQUIRE(found.size() == 5);
-    REQUIRE(of_mean.size() == 5);
-    CHECK(turning.report.turning->unresolved == 0);
-    if (rate == 1) check_table(found, table, "slow_blades", rate, 3e-6);
-    // The exponent that represents a motion is not one of its copies, which differ by multiples of the rate.
-    for (const Complex s : found) {
-      const auto nearest = std::min_element(of_mean.begin(), of_mean.end(),
-                                            [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
-      CAPTURE(s);
-      CHECK(std::abs(*nearest - s) < std::abs(rate));
-      of_mean.erase(nearest);
-    }
-  }
+  check_table(check_next_to_mean(1), table, "slow_blades", 1, 3e-6);
+}
+
+TEST_CASE("slower rotors under gravity have modes next to those of the mean state, in either sense",
+          "[linearised][long]") {
+  for (const double rate : {0.3, -0.3}) check_next_to_mean(rate);
 }
 
 TEST_CASE("slow blades have the exponents that a search around a frequency finds among all copies", "[linearised]") {
@@ -230,26 +263,11 @@ TEST_CASE("overdamped blades without coupling have as many slow decays as blades
 
 TEST_CASE("strongly damped blades have two exponents each in parametric resonance, which add up to the damping",
           "[linearised]") {
-  constexpr double inertia = 0.38;
-  struct Case {
-    double rate, damping;
-    int turns;  ///< frequency in multiples of half the rate
-  };
-  for (const Case& each : {Case{2, 9.58, 0}, Case{3, 9.3, 0}, Case{6, 10, 1}, Case{6, 9.6, 1}})
-    for (const int count : {1, 2, 3, 4}) {
-      CAPTURE(each.rate, each.damping, count);
-      const std::string text = blades(count, 60, std::nullopt, fmt::format("rate: {}", each.rate), each.damping);
-      const Turning turning(text, each.rate);
-      CHECK(turning.report.found.all);
-      const std::vector<Complex> found = turning.exponents();
-      REQUIRE(found.size() == 2 * static_cast<std::size_t>(count));
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        CHECK(found[k].imag() == Approx(each.turns * each.rate / 2));
-        const Complex other = found[found.size() - 1 - k];
-        CHECK(found[k].real() + other.real() == Approx(-each.damping / inertia).epsilon(1e-6));
-        CHECK(std::abs(found[k].real() - other.real()) > 0.1);
-      }
-    }
+  check_resonance({1, 2});
+}
+
+TEST_CASE("more strongly damped blades in parametric resonance have two exponents each", "[linearised][long]") {
+  check_resonance({3, 4});
 }
 
 TEST_CASE("a blade that is overdamped about its mean state may oscillate about its periodic motion", "[linearised]") {
@@ -279,7 +297,8 @@ TEST_CASE("an oscillation that has half the rate as its frequency by chance is o
   CHECK(found[0].imag() == Approx(3));
 }
 
-TEST_CASE("overdamped unequal blades have all modes, of which copies hide some about the mean state", "[linearised]") {
+TEST_CASE("overdamped unequal blades have all modes, of which copies hide some about the mean state",
+          "[linearised][long]") {
   const Turning turning(blades(3, 60, springs, "rate: 0.3", 19.1, 1.1), 0.3);
   CHECK(turning.report.found.all);
   CHECK(turning.exponents().size() == 8);
@@ -334,7 +353,7 @@ TEST_CASE("modes of slow unequal blades are those next to the modes of their mea
   }
 }
 
-TEST_CASE("a rotor too slow for harmonics has the modes of its mean state", "[linearised]") {
+TEST_CASE("a rotor too slow for harmonics has the modes of its mean state", "[linearised][long]") {
   const double rate = 0.01;
   const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate));
   const Turning turning(text, rate), mean(text, rate, true);
@@ -478,10 +497,12 @@ TEST_CASE("a pendulum that turns over keeps its energy", "[linearised]") {
   CHECK(orbit.deviation.rate_at(0.25 * two_pi)[rotation] < -1);  // slow at the top
 }
 
-TEST_CASE("rotors without a periodic motion near their mean state are refused", "[linearised]") {
+TEST_CASE("a damped rotor without a periodic motion near its mean state is refused", "[linearised][long]") {
   CHECK_THROWS_WITH(Turning(unbalanced(", damping: [20, 20, 0, 0, 0, 0]"), 7),
                     Catch::Contains("no periodic motion at 7 rad/s") && Catch::Contains("a drive with a `rate`"));
-  // Only the slow rotation centres the blade: it tumbles.
+}
+
+TEST_CASE("a blade that the slow rotation alone centres has no periodic motion, as it tumbles", "[linearised]") {
   CHECK_THROWS_WITH(Turning(blades(1, 0, std::nullopt, "rate: 0.5"), 0.5), Catch::Contains("no periodic motion"));
 }
 

@@ -6,7 +6,8 @@ import unittest
 
 import numpy as np
 
-from example import PROGRAM, REPOSITORY, ExampleTest
+from example import PROGRAM, ExampleTest
+from python_tool import TOOLS, prepare_figures, run_python_tool
 from bielle_tools.results import Results
 
 AREAS, DEAD, AMBIENT = np.array([3.1e-3, 1.9e-3]), 1e-4, 101325
@@ -66,8 +67,8 @@ class Crane(ExampleTest):
 
     def test_its_circuit_is_drawn(self):
         folder = os.path.join(self.folder, "figures")
-        done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-plot"), self.path, "-o", folder],
-                              capture_output=True, text=True, timeout=300)
+        prepare_figures()
+        done = run_python_tool(os.path.join(TOOLS, "bielle-plot"), [self.path, "-o", folder])
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLessEqual({"hydraulics.png", "element_lift.png", "element_fold.png"}, set(os.listdir(folder)))
 

@@ -24,6 +24,7 @@ TOOLS = os.path.join(REPOSITORY, "tools")
 sys.path.insert(0, TOOLS)
 from bielle_tools import messages  # noqa: E402
 from bielle_tools.figures import plot_style  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
              "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],

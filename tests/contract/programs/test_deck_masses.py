@@ -13,6 +13,7 @@ from quick_tools import WithQuickTools
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
 import cell_decks  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 NODE = np.array([-0.02, 0.11, 0.04])  # reference node of the tie
 OFFSET = np.array([0.1, 0.2, 0.3])

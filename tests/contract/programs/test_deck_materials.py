@@ -13,6 +13,7 @@ from quick_tools import WithQuickTools
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
 import cell_decks  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 INTERFACES = """\
 interfaces: {left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}, tie: average}}

@@ -16,6 +16,7 @@ from quick_tools import WithQuickTools
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
 import cell_decks  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 STEEL = "{young: 210e9, poisson: 0.3, density: 7850}"
 RIGHT = "right: {surface: {plane: {point: [0.6, 0, 0], normal: [1, 0, 0]}}}"

@@ -9,6 +9,7 @@ import h5py
 
 from bar_body import BarTest
 from command import PROGRAMS
+from shares import share
 from test_mechanism import PENDULUM
 from test_reduce import BAR, BODY
 
@@ -58,7 +59,7 @@ class Limits(BarTest):
     def test_every_limit_of_the_address_space_ends_in_a_sentence_or_in_success(self):
         for program, source in (("bielle-mechanism", "model.yaml"), ("bielle-reduce", "body.yaml")):
             succeeded = 0
-            for megabytes in (*range(200, 960, 50), 1500, 4000):
+            for megabytes in (*share(range(200, 960, 50)), 1500, 4000):
                 with self.subTest(program=program, megabytes=megabytes):
                     status, said = self.run_limited(program, {resource.RLIMIT_AS: megabytes * MEGABYTE}, source, "-o", "out.h5")
                     self.assertIn(status, (0, 2, 127), said)  # 127: of the loader, which has no room for the libraries

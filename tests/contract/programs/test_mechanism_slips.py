@@ -4,6 +4,7 @@ import os
 import unittest
 
 from command import CommandTest
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 BEAM = """\
 gravity: [0, 0, -9.81]

@@ -13,6 +13,7 @@ import h5py
 from command import PROGRAMS, CommandTest
 from test_mechanism import PENDULUM
 from test_reduce import BAR, BODY
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 MODEL = PENDULUM + "output: {checkpoint: 10}\n"
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from command import CommandTest
 from iges_boxes import iges_boxes
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 # Two bars in a row, and a third one apart.
 BARS = """SetFactory("OpenCASCADE");

@@ -14,6 +14,7 @@ from quick_tools import WithQuickTools
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
 import cell_decks  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOLS, MECHANISM = os.path.join(REPOSITORY, "tools"), os.path.join(PROGRAMS, "bielle-mechanism")
 KINDS = {kind: (kind,) * 12 for kind in cell_decks.TYPES} | {"mixture": ("hexahedron", "wedge", "pyramid") * 3 + ("wedge", "pyramid", "end")}

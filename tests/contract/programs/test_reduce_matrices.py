@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from command import PROGRAMS, CommandTest
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 MECHANISM = os.path.join(PROGRAMS, "bielle-mechanism")
 LENGTH = 1.0

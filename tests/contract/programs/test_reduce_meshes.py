@@ -17,6 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 MESHES = os.path.join(HERE, "..", "..", "..", "meshes")
 sys.path.insert(0, os.path.join(HERE, "..", "tools"))
 from box_mesh import box  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 SIZE = (0.3, 0.2, 0.1)
 MASS = 7850 * 0.3 * 0.2 * 0.1

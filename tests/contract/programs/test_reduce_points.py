@@ -9,6 +9,7 @@ import numpy
 
 from bar_body import BarTest
 from command import PROGRAMS
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 # A bar with a pad on its bottom that touches neither end.
 BAR = """\

@@ -14,6 +14,7 @@ REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..",
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.exchange import formats, superelement_set  # noqa: E402
 from bielle_tools.exchange.recovery import Quantity  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 MECHANISM = os.path.join(PROGRAMS, "bielle-mechanism")
 GEOMETRY = """SetFactory("OpenCASCADE");

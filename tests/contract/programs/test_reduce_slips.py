@@ -12,6 +12,7 @@ import h5py
 from bar_body import BarTest
 from command import PROGRAMS
 from test_reduce import BAR, BODY
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 
 class Slips(BarTest):

@@ -12,6 +12,7 @@ from command import CommandTest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "tools"))
 from cell_decks import SIZE, VOLUME, Box  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 # Corners and middles of edges in the order of I-DEAS: along the edges of the bottom, up, along the edges of the top.
 # (SDRC I-DEAS, Universal Dataset Number 2412; Element library.)

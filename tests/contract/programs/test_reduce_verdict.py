@@ -9,6 +9,7 @@ import h5py
 
 from command import PROGRAMS, CommandTest
 from test_reduce import BAR, BODY
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 # Twice as thick as its elements, ends that may deform, modes enough.
 GOOD = (BODY.replace("size: 0.02", "size: 0.01").replace("tie: rigid", "tie: average").replace("count: 4", "count: 24"))

@@ -4,12 +4,18 @@ import glob
 import os
 import re
 import subprocess
+import sys
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads", "bielle-exchange", "bielle-study", "install", "demo",
+sys.path.insert(0, os.path.dirname(HERE))
+
+from python_tool import TOOLS, run_python_tool  # noqa: E402
+from quick_tools import INTERPRETER  # noqa: E402
+
+COMMANDS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads", "bielle-exchange", "bielle-study", "install", "demo",
          "test", "tidy", "verify", "package", "convert_mesh.py", "manual", "gallery"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
@@ -36,15 +42,17 @@ class Readmes(unittest.TestCase):
                 self.texts[path] = file.read()
 
     def help(self, command):
-        folder = PROGRAMS if command in ("bielle-reduce", "bielle-mechanism") else os.path.join(REPOSITORY, "tools")
-        done = subprocess.run([os.path.join(folder, command), "--help"], capture_output=True, text=True, timeout=60,
-                              stdin=subprocess.DEVNULL)
+        path = os.path.join(PROGRAMS if command in ("bielle-reduce", "bielle-mechanism") else TOOLS, command)
+        with open(path, "rb") as file:
+            in_python = file.readline() == INTERPRETER
+        done = run_python_tool(path, ["--help"]) if in_python else subprocess.run([path, "--help"], capture_output=True, text=True, timeout=60,
+                                                                                  stdin=subprocess.DEVNULL)
         self.assertEqual((done.returncode, done.stderr), (0, ""), command)
         return done.stdout
 
     def test_options_are_those_of_the_commands(self):
         known = set(OTHERS)
-        for command in ("bielle-reduce", "bielle-mechanism", *TOOLS):
+        for command in ("bielle-reduce", "bielle-mechanism", *COMMANDS):
             known.update(re.findall(r"--[a-z][a-z-]*", self.help(command)))
         for path, text in self.texts.items():
             if os.sep + "tests" + os.sep in path:

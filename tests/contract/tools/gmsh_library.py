@@ -2,6 +2,7 @@
 
 import ctypes
 import ctypes.util
+import functools
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t
 
 import numpy as np
@@ -10,13 +11,19 @@ _NAMES = {2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron", 6: "wedge", 7: 
           12: "hexahedron27", 16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13"}
 
 
+@functools.cache
+def _library():
+    """Searches for the library, by a process of ldconfig, once."""
+    return ctypes.CDLL(ctypes.util.find_library("gmsh"))
+
+
 class GmshFile:
     """points (p,3); cells {type: (n,k) rows of points}; numbers {type: (n)} of gmsh's elements;
     groups {(dimension, name): {type: (m,k)}}; reference {type: (k,d)}: gmsh's
     own places of the nodes in its reference cell; volumes {type: (n)}: gmsh's integrals, of the sign of its determinants."""
 
     def __init__(self, path):
-        self.library = ctypes.CDLL(ctypes.util.find_library("gmsh"))
+        self.library = _library()
         self._call("Initialize", 0, None, 1)
         try:
             self._call("OptionSetNumber", c_char_p(b"General.Terminal"), c_double(0))

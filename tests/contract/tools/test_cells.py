@@ -21,6 +21,7 @@ from bielle_tools.bodies import calculix_file
 from bielle_tools.mesh import cell_integrals
 from bielle_tools.mesh.cells import BY_GMSH, CELLS, FLATS, SOLIDS, boundary_faces, permutation, solid_faces
 from bielle_tools.mesh.meshio_library import meshio_library
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 meshio = meshio_library()
 

@@ -12,6 +12,7 @@ from box_mesh import REPOSITORY, InFolder
 from cell_decks import ABAQUS, SIDE, SIZE, TYPES, VOLUME, Box, card
 from gmsh_library import GmshFile
 from python_tool import run_python_tool
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 CONVERT = os.path.join(REPOSITORY, "tools", "convert_mesh.py")
 CORNERS = {"triangle": 3, "quad": 4, "tetra": 4, "hexahedron": 8, "wedge": 6, "pyramid": 5}

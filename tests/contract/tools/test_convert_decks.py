@@ -7,6 +7,7 @@ import numpy as np
 
 import test_convert_mesh
 from box_mesh import box
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 SIZE = (1.0, 0.2, 0.2)
 VOLUME = 1.0 * 0.2 * 0.2

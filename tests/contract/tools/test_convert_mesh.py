@@ -11,6 +11,7 @@ import numpy as np
 from box_mesh import REPOSITORY, InFolder, area, box
 from gmsh_library import GmshFile
 from python_tool import run_python_tool
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 
 CONVERT = os.path.join(REPOSITORY, "tools", "convert_mesh.py")

@@ -13,6 +13,7 @@ from bielle_tools.exchange import matrix_file
 from bielle_tools.exchange.matrix_set import MassProperties
 from bielle_tools.exchange.units import ALIASES, SI, converted, declared_units, read_units
 from bielle_tools.messages import InputError
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-exchange")
 # Steel and the dimensions of a beam in several systems: Young's modulus, density, length, width.

@@ -19,6 +19,7 @@ from bielle_tools.decks.abaqus_file import read_abaqus
 from bielle_tools.mesh import cell_integrals
 from bielle_tools.mesh.cells import CELLS
 from bielle_tools.results import Results
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-loads")

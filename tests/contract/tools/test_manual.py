@@ -21,6 +21,7 @@ from bielle_tools.manual import pages, site  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
 from python_tool import prepare_figures  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
+from shares import share  # noqa: E402
 from test_schema import load  # noqa: E402
 
 MOST_WORDS = 1500  # in one page
@@ -78,7 +79,7 @@ class Manual(unittest.TestCase):
         self.assertGreaterEqual(len(found), 2)
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
-            for path in found:
+            for path in share(found):
                 with self.subTest(path), tempfile.TemporaryDirectory() as folder:
                     pages.run_page(path, folder, environment)
 

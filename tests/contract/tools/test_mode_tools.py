@@ -19,6 +19,7 @@ from bielle_tools.bodies.superelement_body import superelement_of  # noqa: E402
 from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
 from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 # The body's x axis along y of the mechanism; both ends are rigid, so that their surfaces move as their nodes do.

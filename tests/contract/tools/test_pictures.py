@@ -1,5 +1,6 @@
 """Pictures of bielle-animate: places and colours of pixels that follow from the motion in closed form."""
 
+import contextlib
 import json
 import os
 import shutil
@@ -7,6 +8,7 @@ import signal
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -19,12 +21,14 @@ from box_mesh import REPOSITORY, InFolder
 from python_tool import import_tools, run_python_tool
 
 from bielle_tools.messages import InputError  # noqa: E402  (box_mesh knows where)
+from bielle_tools.pictures import frames  # noqa: E402
 from bielle_tools.pictures.camera import MARGIN  # noqa: E402
-from bielle_tools.pictures.frames import drawn  # noqa: E402
+from bielle_tools.pictures.display import virtual_display  # noqa: E402
 from bielle_tools.pictures.shot import Look, Shot  # noqa: E402
 from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.scene.stress_scale import ANCHORS, stress_colours  # noqa: E402
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")
 RED, BLUE = "#ff0000", "#0000ff"
@@ -36,6 +40,11 @@ class Pictures(InFolder):
     def setUpClass(cls):
         super().setUpClass()
         import_tools("pictures", "results", "bodies")
+        with unittest.mock.patch.dict(os.environ):
+            server = contextlib.ExitStack()
+            server.enter_context(virtual_display())  # a start of an X server takes longer than most drawings
+            cls.display = os.environ["DISPLAY"]
+        cls.addClassCleanup(server.close)
 
     def boxes(self, size=1.0, origin=(0, 0, 0), rows=5, name="boxes"):
         """A red box that goes along x, and a blue one that rests below its start. @returns path of the results"""
@@ -53,7 +62,13 @@ class Pictures(InFolder):
     def drawings(self, shot, processes=1):
         """(rows,height,width,3) of the drawings alone, without the strips of texts."""
         top, height = shot.paper.line, shot.camera.size[1]
-        return np.array([np.asarray(each)[top:top + height] for each in drawn(shot, processes=processes)]).astype(int)
+        return np.array([np.asarray(each)[top:top + height] for each in self.pictures(shot, processes)]).astype(int)
+
+    def pictures(self, shot, processes=1):
+        """Draws on the display of the class."""
+        with (unittest.mock.patch.object(frames, "virtual_display", contextlib.nullcontext),
+              unittest.mock.patch.dict(os.environ, DISPLAY=self.display)):
+            yield from frames.drawn(shot, processes=processes)
 
     def animate(self, *arguments, **options):
         return run_python_tool(TOOL, [*arguments], folder=self.folder, **options)
@@ -194,7 +209,7 @@ class Stresses(Pictures):
 
     def test_the_bar_goes_from_nothing_to_the_largest(self):
         shot = self.shot(self.path("run.h5"), 9, size=(600, 400))
-        picture = np.asarray(next(drawn(shot, processes=1))).astype(int)
+        picture = np.asarray(next(self.pictures(shot))).astype(int)
         self.assertEqual(picture.shape, (400, 600, 3))
         left, right = shot.paper.bar_ends(600)
         middle = 400 - shot.paper.line // 2
@@ -263,7 +278,7 @@ class CheckedModels(Pictures):
         self.assertEqual([len(shot.said) for shot in shots[:2]], [1, 2])
         self.assertGreater(len(shots[2].said), 3)
         for shot in shots:
-            picture = np.asarray(next(drawn(shot, processes=1))).astype(int)
+            picture = np.asarray(next(self.pictures(shot))).astype(int)
             self.assertEqual(picture.shape, (400, 500, 3))
             self.assertTrue(inked(picture[-shot.paper.line:]).any())
             self.assertFalse(inked(picture[:, -3:]).any(), "lines end before the edge")
@@ -324,7 +339,7 @@ class Files(Pictures):
     def test_texts_of_any_kind(self):
         for name in ("</title><script>", "Kurbel\nmit Strich - \u00e4\u03bc\u4e2d\U0001f600", "x" * 3000, ""):
             path = self.boxes(name=name)
-            picture = next(drawn(self.shot(path, size=(300, 200)), processes=1))
+            picture = next(self.pictures(self.shot(path, size=(300, 200))))
             self.assertEqual(picture.size, (300, 200))
 
     def test_wrong_options(self):

@@ -16,6 +16,7 @@ from study_stand_in import STUDY, WithStandIn
 from bielle_tools.messages import InputError
 from bielle_tools.quantities import spectra
 from bielle_tools.quantities.curves import density, envelope
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-plot")
 

@@ -16,6 +16,7 @@ import numpy as np
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
 from python_tool import import_tools, prepare_figures, run_python_tool, users_style  # box_mesh knows where
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 
 class ResultsTool(InFolder):

@@ -10,6 +10,7 @@ import unittest
 import h5py
 
 from study_stand_in import PROGRAM, STAND_IN, STUDY, WithStandIn
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 
 class Study(WithStandIn):

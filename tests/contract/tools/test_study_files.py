@@ -13,6 +13,7 @@ import unittest
 import h5py
 
 from study_stand_in import STUDY, WithStandIn
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 GATHER = ("--gather", "rate=max joints/main/rate")
 TABLE = "speed,mass\n1,2\n2,2\n"

@@ -15,6 +15,7 @@ from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools.messages import InputError  # noqa: E402
 from bielle_tools.study import gather as study_gather, values as study_values  # noqa: E402  (box_mesh knows where)
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 PENDULUM = """\

@@ -22,6 +22,7 @@ from python_tool import run_python_tool  # box_mesh knows where
 from bielle_tools.messages import InputError
 from bielle_tools.quantities.rpc_file import write_rpc
 from bielle_tools.quantities.table_file import write_columns
+from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-table")

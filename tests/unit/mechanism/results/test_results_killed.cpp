@@ -125,14 +125,12 @@ std::size_t check_rows(const std::string& path) {
   return time.size();
 }
 
-}  // namespace
-
-TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is killed") {
+/// Kills runs while they record, at moments that are spread over 190 ms.
+void kill_while_recording(ResultsLayout layout, int moments) {
   const TemporaryFolder folder;
-  const auto layout = GENERATE(ResultsLayout::named, ResultsLayout::stacked);
   CAPTURE(layout_name(layout));
   std::size_t most = 0;
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < 24; trial += 24 / moments) {
     const std::string path = folder / "run.h5";
     run_and_kill(trial * 8ms + trial * 37us, [&](int pipe) {
       ResultsSample sample;
@@ -150,14 +148,13 @@ TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is k
   CHECK(most > 1000);
 }
 
-TEST_CASE("A run that is killed while it makes its datasets leaves a readable file") {
+/// Kills runs while they make the datasets of many nodes.
+void kill_while_datasets_are_made(ResultsLayout layout, int nodes, int trials) {
   const TemporaryFolder folder;
   const std::string path = folder / "run.h5";
   // 2000 datasets by names take some 100 ms to make: kills are spread over this time, and beyond.
-  const auto [layout, nodes] =
-      GENERATE(table<ResultsLayout, int>({{ResultsLayout::named, 500}, {ResultsLayout::stacked, 10'000}}));
   CAPTURE(layout_name(layout));
-  const auto sample_model = [nodes = nodes] {
+  const auto sample_model = [nodes] {
     Model model;
     for (int k = 0; k < nodes; ++k) {
       Node node;
@@ -167,7 +164,7 @@ TEST_CASE("A run that is killed while it makes its datasets leaves a readable fi
     }
     return model;
   };
-  const auto run = [&, layout = layout, nodes = nodes](const std::function<void()>& ready) {
+  const auto run = [&](const std::function<void()>& ready) {
     const Model model = sample_model();
     State state;
     state.nodes.resize(static_cast<std::size_t>(nodes) + 1);
@@ -183,7 +180,6 @@ TEST_CASE("A run that is killed while it makes its datasets leaves a readable fi
     run([&] { tell(pipe); });
     tell(pipe);
   });
-  constexpr int trials = 12;
   for (int trial = 0; trial < trials; ++trial) {
     CAPTURE(trial);
     run_and_kill(whole * trial / (trials - 2), [&](int pipe) {
@@ -195,6 +191,26 @@ TEST_CASE("A run that is killed while it makes its datasets leaves a readable fi
     CHECK(file.read_text("/input") == "the text of the model");
     if (file.has("/time")) CHECK(file.shape("/time") == Shape{1});
   }
+}
+
+}  // namespace
+
+TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is killed") {
+  kill_while_recording(GENERATE(ResultsLayout::named, ResultsLayout::stacked), 8);
+}
+
+TEST_CASE("A killed run leaves a readable file with whole rows at more moments", "[long]") {
+  kill_while_recording(GENERATE(ResultsLayout::named, ResultsLayout::stacked), 24);
+}
+
+TEST_CASE("A run that is killed while it makes its datasets leaves a readable file") {
+  kill_while_datasets_are_made(ResultsLayout::named, 500, 6);
+  kill_while_datasets_are_made(ResultsLayout::stacked, 10'000, 6);
+}
+
+TEST_CASE("A run that is killed at more moments while it makes its datasets leaves a readable file", "[long]") {
+  kill_while_datasets_are_made(ResultsLayout::named, 500, 12);
+  kill_while_datasets_are_made(ResultsLayout::stacked, 10'000, 12);
 }
 
 TEST_CASE("Steps that were completed are in the file while a slow one runs") {
