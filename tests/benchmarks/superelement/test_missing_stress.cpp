@@ -80,7 +80,7 @@ TEST_CASE("a spinning bar says how much of its stress its modes lack, and with i
   CHECK(lacking.missing == Approx(std::sqrt(1.0 / 6)).epsilon(0.03));
   CHECK_THAT(lacking.summary, Contains("warning: superelement 'm' lacks about 4") && Contains("% of its stress") &&
                                   Contains("deflect by ") && Contains("inertia_relief: true"));
-  CHECK_THAT(spin(folder, "").summary, !Contains("lacks"));  // no stress is asked for
+  CHECK_THAT(spin(folder, "").summary, !Contains("lacks"));  // no stress is requested
 
   write_bar(folder / "bar.h5", true);
   const Spin whole = spin(folder, asked);
