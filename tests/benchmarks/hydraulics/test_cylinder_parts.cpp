@@ -71,8 +71,8 @@ TEST_CASE("stiffness, damping and mass of a cylinder give the frequency of its t
   for (int k = 0; k < dense.nodes(); ++k)
     if (file.model.node(k).name == "mass") free.push_back(6 * k + 2);
   for (int k = dense.first_order_begin(); k < dense.multiplier_begin(); ++k) free.push_back(k);
-  REQUIRE(free.size() == 7);  // z; fluid, pressure and space of two chambers
-  // Units in which all are of order one: m, Pa, m^3.
+  REQUIRE(free.size() == 7);  // z, and fluid, pressure and space of two chambers
+  // Units in which all unknowns are of order one: m, Pa, m^3.
   VectorX unit = VectorX::Ones(7);
   for (int k = 0; k < 2; ++k) unit.segment<3>(1 + 3 * k) << 1e-3, 1e9, 1e-3;
   const auto part = [&](DenseModel::Part which) {
@@ -92,7 +92,7 @@ TEST_CASE("stiffness, damping and mass of a cylinder give the frequency of its t
   int found = 0, still = 0;
   for (const std::complex<double> s : eigenvalues(K, C, M)) {
     if (std::abs(s) < 1e-3) {
-      ++still;  // the fluid of each chamber stays what it is
+      ++still;  // the amount of fluid in each chamber is constant
     } else {
       CHECK(s.real() == Approx(-decay).epsilon(1e-7));
       CHECK(std::abs(s.imag()) == Approx(frequency).epsilon(1e-9));
@@ -126,8 +126,8 @@ TEST_CASE("a telescopic cylinder extends stage after stage, each with its speed 
 }
 
 TEST_CASE("a cushion slows a piston down as its orifice says, and lets it out freely") {
-  // Light and driven by constant pressure: A_2 v = C_d A(x) sqrt(2 (p_2 - p_port)/rho), p_2 A_2 = p_1 A_1 along the
-  // way.
+  // The piston is light and driven by constant pressure: A_2 v = C_d A(x) sqrt(2 (p_2 - p_port)/rho), and p_2 A_2 = p_1
+  // A_1 during the stroke.
   constexpr double A1 = 2e-3, A2 = 1.2e-3, length = 0.1, port_area = 1e-4, narrow = 2e-6;
   const std::string own =
       "ambient_pressure: 0, supply: {pressure: 1e7, tank: 0}, valve: {area: 1e-4, command: \"if(t < 1, 1, -1)\"}, ";
@@ -168,7 +168,7 @@ TEST_CASE("a cylinder that is pressed against its stop gives by force over stiff
       "end_stops: {stiffness: 1e7, damping: 1e5}");
   const std::vector<double> found = at_end(text, {.h = 2e-3, .end = 2, .rho = 0.6},
                                            {"elements/jack/length", "elements/jack/stop_force", "elements/jack/rate"});
-  const double F = 1e7 * 2e-3 - 500 * g;  // p_2 falls to the tank's
+  const double F = 1e7 * 2e-3 - 500 * g;  // p_2 falls to the pressure of the tank
   CHECK(found[0] == Approx(1.3 + F / 1e7).epsilon(1e-6));
   CHECK(found[1] == Approx(-F).epsilon(1e-4));
   CHECK(std::abs(found[2]) < 1e-6);
@@ -343,7 +343,7 @@ TEST_CASE("a cavity is filled in the time that its pump takes for its space") {
 }
 
 TEST_CASE("an actuator without a given pressure holds its load through statics and the motion after it") {
-  // Two analyses: the mass settles on its oil, then moves on from there without a jerk.
+  // There are two analyses: the mass settles on its oil, and then starts its motion without a jump of the acceleration.
   const std::string text = lifted(500, 1.2,
                                   "piston_areas: [2e-3, 1.2e-3], dead_volumes: [1e-4, 1e-4], stroke: [1, 1.5], "
                                   "friction: {viscous: 1000}");

@@ -403,7 +403,8 @@ TEST_CASE("of several pendulums the one that swings gives its joint to the name"
 }
 
 TEST_CASE("parts that share a mode are named together, and mixed directions have no word", "[linearised]") {
-  // Two equal masses on a line between three equal springs: sqrt(k/m) and sqrt(3 k/m), half of the energy in each.
+  // Two equal masses are on a line between three equal springs: sqrt(k/m) and sqrt(3 k/m), with half of the energy in
+  // each mass.
   const std::vector<std::string> names = names_of(
       "nodes: {left: {position: [1, 0, 0], fixed: [y, z]}, right: {position: [2, 0, 0], fixed: [y, z]}}\n"
       "elements:\n  left: {type: point_mass, node: left, mass: 1}\n  right: {type: point_mass, node: right, mass: 1}\n"
@@ -429,7 +430,7 @@ TEST_CASE("rigid motions of a free body have no names of their own", "[linearise
   REQUIRE(names.size() == 8);
   CHECK(names[0] == "rigid motion, 1 of 6");
   CHECK(names[5] == "rigid motion, 6 of 6");
-  CHECK(names[6] == "1st boom bending about z");  // 20 mm along y: softer about z
+  CHECK(names[6] == "1st boom bending about z");  // 20 mm along y, so that bending about z is softer
   CHECK(names[7] == "1st boom bending about y");
 }
 

@@ -159,7 +159,7 @@ TEST_CASE("sums over modes are refused where they mean nothing", "[linearised]")
   options.modes = 2;
   CHECK_THROWS_WITH(compute_frequency_response(free.session, options),
                     Catch::Contains("a rigid mode that no force resists"));
-  // With critical damping, a double eigenvalue has a single shape.
+  // With critical damping, a double eigenvalue has only one shape.
   const ModesOf critical(
       "nodes: {a: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
       "elements:\n  a: {type: point_mass, node: a, mass: 2}\n"

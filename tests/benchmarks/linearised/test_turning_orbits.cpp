@@ -437,7 +437,8 @@ TEST_CASE("the mean state of a rotor out of balance has no vibration", "[lineari
   CHECK(mean.report.turning->orbit_harmonics == 0);
   CHECK(turning.report.turning->orbit_harmonics > 0);
   CHECK(turning.report.turning->displacement == Approx(24.5 / (1000 - 11 * 49)).epsilon(0.05));
-  // The hub's reaction, which keeps the rotor at its rate, is missing: exponents are wrong by more than rounding.
+  // The reaction of the hub, which keeps the rotor at its rate, is missing, so that exponents are wrong by more than
+  // rounding.
   const ReferenceTable table("turning_orbits");
   const Complex exact(0, table("unbalance.imaginary_1"));
   for (const Complex s : mean.exponents()) CHECK(distance(s, exact, 7) > 1e-3);
@@ -481,7 +482,7 @@ TEST_CASE("a pendulum that turns over keeps its energy", "[linearised]") {
 TEST_CASE("rotors without a periodic motion near their mean state are refused", "[linearised]") {
   CHECK_THROWS_WITH(Turning(unbalanced(", damping: [20, 20, 0, 0, 0, 0]"), 7),
                     Catch::Contains("no periodic motion at 7 rad/s") && Catch::Contains("a drive with a `rate`"));
-  // Only the slow rotation centres the blade: it tumbles.
+  // Only the slow rotation centres the blade, so that it tumbles.
   CHECK_THROWS_WITH(Turning(blades(1, 0, std::nullopt, "rate: 0.5"), 0.5), Catch::Contains("no periodic motion"));
 }
 

@@ -143,13 +143,13 @@ TEST_CASE("a superelement says how wrong its deformation is") {
           REQUIRE(model.load(6, 1e-3) >= 0);
           return model.node(node).x - start;
         };
-        // The part that is linear in the load is of the chain's elements.
+        // The part that is linear in the load is that of the chain's elements.
         const Vector3 linear = (tip_of(element, "n1", 1e-3) - tip_of(beam, "tip", 1e-3)) / 1e-3;
         const Vector3 exact = tip_of(beam, "tip", factor);
         const double error = (tip_of(element, "n1", factor) - exact - factor * linear).norm() / exact.norm();
         const double estimate = estimate_of(element + tip_load("n1", factor * load.force, factor * load.moment));
         CAPTURE(radius, load.force.transpose(), load.moment.transpose(), factor, error, estimate);
-        CHECK(estimate > 0.75 * error);  // nowhere much too small
+        CHECK(estimate > 0.75 * error);  // the estimate is nowhere much too small
         if (load.forces_alone) CHECK(estimate < 3 * error);
       }
   }

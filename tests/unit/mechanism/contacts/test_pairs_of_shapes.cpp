@@ -101,7 +101,8 @@ TEST_CASE("gaps of any two shapes are the distances of their surfaces, with the 
         const double gap = -found.depth;
         CHECK(gap > expected - 1e-5);
         CHECK(gap < expected + domes + 1e-9);
-        // The surfaces lie half the gap to either side of the place along the normal, and a skin away from their cores.
+        // The surfaces lie at half the gap to either side of the place along the normal, and at the skin's thickness
+        // from their cores.
         const Vector3 half = (first ? 0.5 : -0.5) * gap * value_of(found.normal), place = value_of(found.place);
         CHECK_THAT(from_core(*a, place - half), Catch::WithinAbs(a->skin(), domes + 1e-5));
         CHECK_THAT(from_core(*b, A.transpose() * (place + half - x)), Catch::WithinAbs(b->skin(), domes + 1e-5));
@@ -143,7 +144,7 @@ TEST_CASE("forces of any two shapes are the derivatives of their potential") {
 }
 
 TEST_CASE("forces and moments of any two shapes do not jump") {
-  // Paths that move one shape over the other at a depth of a part of the skins, turning it.
+  // The paths move one shape over the other at a depth of a part of the skins, and turn it.
   const NormalLaw law = quadratic();
   for (const auto& [name, a, b] : pairs()) {
     CAPTURE(name);
@@ -168,7 +169,7 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
         const auto [x, A] = pose(s);
         const Pressed from = pressed(one, placed_at(*b, x, A), law);
         size = std::max(size, from.force.norm());
-        // The shape moves a short way from there along a straight line, in pieces.
+        // The shape moves a short distance from there along a straight line, in pieces.
         const Vector3 along = 0.01 * (k % 2 ? u : v), spin = 0.02 * turn;
         const auto jump = [&](int pieces) {
           double most = 0;
@@ -177,8 +178,7 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
             const double t = static_cast<double>(p) / pieces;
             const PlacedShape<double> other = placed_at(*b, x + t * along, exp_so3(Vector3(t * spin)) * A);
             if (find_nearest_place(one, other).depth > 0.95 * (a->skin() + b->skin()))
-              break;  // nothing is defined
-                      // there
+              break;  // no distance is defined there
             const Pressed now = pressed(one, other, law);
             most = std::max({most, (now.force - before.force).norm(), (now.moment - before.moment).norm()});
             before = now;
