@@ -59,7 +59,7 @@ events: {up: {when: slide.displacement, crosses: 0.05, direction: rising}}
   CHECK(value(session, "measures/so") == 1);
   CHECK(value(session, "measures/later") == 1);
   CHECK(value(session, "measures/slope") == 1);
-  // Once in each of ten periods and in the half one: at pi/6 after each multiple of 2 pi.
+  // The event occurs once in each of ten periods and in the half one: at pi/6 after each multiple of 2 pi.
   CHECK(value(session, "measures/often") == 11);
   CHECK(value(session, "measures/when") == Approx((20 * M_PI + M_PI / 6) / 20).epsilon(1e-3));
 }
