@@ -257,7 +257,7 @@ class CampbellStates {
 
 Campbell compute_campbell(Session& session, const CampbellOptions& options) {
   if (!options.parameter.empty() && !options.maker)
-    throw InputError("a parameter is swept of models that were read from a file or a text");
+    throw InputError("a parameter can be swept only in models that were read from a file or a text");
   Campbell found;
   CampbellStates states(session, options);
   states.begin(found);

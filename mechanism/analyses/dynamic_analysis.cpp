@@ -137,7 +137,9 @@ std::string judge_gap(const Gap& gap, double tolerance) {
   const char* const advice = tolerance > 0 ? "give a smaller `tolerance`" : "take smaller steps, or give a `tolerance`";
   std::string text;
   if (std::max(std::abs(gap.errors()), gap.turnover) > worth_a_warning)
-    text = "  warning: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
+    text =
+        "  warning: such large errors in the balance mean that the steps are too long for the motion, or that the "
+        "motion jumps\n";
   else if (gap.whole > gained)
     text = fmt::format("  energy grows: {}\n", advice);
   else if (gap.errors() > gained)
@@ -155,8 +157,9 @@ std::string judge_gap(const Gap& gap, double tolerance) {
 std::string judge_flow(double balance, double stored, double through) {
   constexpr double least = 1e-3;  // fraction of the stored energy: with smaller flows, losses are not judged
   if (through >= stored || through < least * stored || std::abs(balance) <= worth_a_warning * through) return {};
-  return fmt::format("  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known better\n",
-                     std::abs(balance) / through, through);
+  return fmt::format(
+      "  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known more accurately\n",
+      std::abs(balance) / through, through);
 }
 
 std::string format_energy(const Session& session, const Motion& motion, const DynamicsOptions& options) {

@@ -103,8 +103,8 @@ std::string format_remarks(const ModesReport& report) {
                         besides == 1 ? "is" : "are");
   if (report.outweighed.value_or(0) > 0)
     text += fmt::format(
-        "  above a critical speed: along {}, seen in axes that turn, centrifugal forces outweigh what holds the "
-        "mechanism; there it deflects against its unbalance, and Coriolis forces alone may keep it stable\n",
+        "  above a critical speed: along {}, seen in axes that turn, centrifugal forces exceed the restoring forces; "
+        "there the mechanism deflects against its unbalance, and Coriolis forces alone may keep it stable\n",
         counted(*report.outweighed, "motion"));
   if (rigid > 0) text += fmt::format("  {}: no force resists\n", counted(rigid, "rigid mode"));
   text += format_uncertain(report);

@@ -89,8 +89,9 @@ std::vector<std::string> check_driven(const System& system, const Environment& e
           "motion itself, or take a dynamic analysis",
           system.equation_name(system.size() - system.multipliers() + k)));
   if (system.first_orders() > 0)
-    throw InputError(fmt::format("{} has a motion of its own, which kinematics cannot tell: take a dynamic analysis",
-                                 system.unknown_name(system.dofs())));
+    throw InputError(
+        fmt::format("{} has a motion of its own, which kinematics cannot determine: take a dynamic analysis",
+                    system.unknown_name(system.dofs())));
   return indifferent;
 }
 
@@ -243,7 +244,7 @@ void begin_kinematics(const Session& session, const KinematicsOptions& options, 
   report.elastic = options.elastic && session.mobility().degrees > 0;
   if (const std::vector<std::string> delays = describe_delays(session.model()); report.elastic && !delays.empty())
     throw InputError(fmt::format(
-        "{}: elastic parts follow a prescribed motion through states of equilibrium, which know no past; take a "
+        "{}: elastic parts follow a prescribed motion through states of equilibrium, which have no history; take a "
         "dynamic analysis",
         counted(delays.size(), "delay", "delays") + " (" + fmt::format("{}", fmt::join(delays, ", ")) + ")"));
   report.start.add(make_consistent(system, environment, state));

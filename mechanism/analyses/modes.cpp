@@ -20,16 +20,15 @@ namespace {
                            : at < n ? system.unknown_name(at)
                                     : system.unknown_name(n + equations.multiplier[static_cast<std::size_t>(at - n)]);
   throw ComputationError(
-      fmt::format("there are no modes: nothing determines {} whatever the frequency: it has neither mass nor "
-                  "stiffness, and nothing "
-                  "holds it, or constraints next to it are redundant",
+      fmt::format("there are no modes: nothing determines {} at any frequency: it has neither mass nor stiffness, and "
+                  "nothing holds it, or constraints next to it are redundant",
                   what));
 }
 
 [[noreturn]] void throw_singular() {
   throw ComputationError(
-      "there are no modes: some unknown is not determined whatever the frequency (`eigen` of the mechanism at rest "
-      "tells which)");
+      "there are no modes: some unknown is not determined at any frequency (`eigen` of the mechanism at rest tells "
+      "which)");
 }
 
 std::optional<int> outweighed(const System& system, const ModesReport& report, double rate) {

@@ -146,7 +146,7 @@ StateSpace compute_state_space(Session& session, const StateSpaceOptions& option
     result.delays = describe_delays(session.model());
     return result;
   }
-  throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");
+  throw ComputationError("the linearised equations are singular at every frequency (`eigen` names the cause)");
 }
 
 }  // namespace bielle::mechanism

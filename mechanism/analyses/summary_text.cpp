@@ -61,12 +61,12 @@ std::string format_carried(const CarriedPart& part) {
 std::string format_axes(const LinearisedSetting& setting, const char* what) {
   constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
   if (!setting.steadiness)
-    return setting.unbalance <= balanced
-               ? ""
-               : fmt::format(
-                     "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; {} are those of "
-                     "the equations as they are there (a static analysis before this one finds the equilibrium)\n",
-                     setting.unbalanced, setting.unbalance, what);
+    return setting.unbalance <= balanced ? ""
+                                         : fmt::format(
+                                               "  the state is at rest but not in equilibrium: the residual of {} is "
+                                               "{:.2g} of the largest force; {} are those of the equations as they are "
+                                               "there (a static analysis before this one finds the equilibrium)\n",
+                                               setting.unbalanced, setting.unbalance, what);
   std::string text = fmt::format("  in motion, seen in axes that {}\n",
                                  setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
   if (!setting.steadiness->steady())
@@ -101,19 +101,20 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (start.unstable > 0)
     text += fmt::format(
-        "  the static equilibrium is unstable: its stiffness is negative along {}{}. It stands as on its tip\n",
+        "  the static equilibrium is unstable: its stiffness is negative along {}{}. The slightest disturbance makes "
+        "the mechanism leave it\n",
         counted(start.unstable, "motion"),
         start.unstable_motion.empty() ? "" : fmt::format(", most at {}", start.unstable_motion));
   if (!start.loose.empty()) text += format_loose(start.loose);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)
     text += fmt::format(
-        "  node '{}', which has no mass, stood out of the balance of its forces: it was moved there, by {:.3g} m\n",
+        "  node '{}', which has no mass, was not in the equilibrium of its forces: it was moved there, by {:.3g} m\n",
         start.balanced_node, start.balanced);
   if (!start.unbalanced.empty())
     text += fmt::format(
-        "  {}: it has no mass, and no place near by where its forces balance: the first steps tear it somewhere, with "
-        "velocities that mean nothing\n",
+        "  {}: it has no mass, and no position near by where its forces are in equilibrium: it jumps in the first "
+        "steps, with meaningless velocities\n",
         start.unbalanced);
   if (start.velocity_change > 1e-9 || start.angular_change > 1e-9) {
     const std::string linear = start.velocity_change > 1e-9 ? fmt::format("{:.3g} m/s", start.velocity_change) : "",
@@ -177,7 +178,7 @@ std::string format_mobility(const Session& session) {
   if (const NotUnique found = find_not_unique(session.system(), session.acting(), session.state()); !found.none())
     text += fmt::format(
         "  {}{}\n", describe_not_unique(found),
-        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these" : "");
+        session.system().reads_reactions() ? ", and forces that depend on them (friction) follow from these" : "");
   return text;
 }
 

@@ -34,8 +34,8 @@ void Contact::check_depth(const LocalState& state, int pair, const PairForce::Ne
   const double most = shape(a).skin() + shape(b).skin();
   if (-found.gap > most)
     throw ComputationError(
-        fmt::format("contact '{}' at t = {:.6g} s: {} press {:.3g} m into each other, beyond the {:.3g} m within which "
-                    "they know the way out; make the contact stiffer, or `rounding` larger",
+        fmt::format("contact '{}' at t = {:.6g} s: {} press {:.3g} m into each other, beyond the {:.3g} m up to which "
+                    "the direction of the contact force is known; make the contact stiffer, or `rounding` larger",
                     name(), state.time(), pair_name(pair), -found.gap, most));
   if (-found.gap > 0.5 * most && has_turned_over(state, pair, found))
     throw ComputationError(fmt::format(

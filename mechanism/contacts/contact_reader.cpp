@@ -192,7 +192,7 @@ std::vector<std::pair<int, int>> pairs_of(const ReadShapes& read, const YamlValu
       const auto [second_node, second_fixed] = moves_with(second.node, model);
       if (first_node == second_node || (first_fixed && second_fixed)) continue;
       if (!can_touch(first.kind, second.kind))
-        read.entries[b].fail(fmt::format("nothing is known of how a {} touches a {}; a {} can touch: {}",
+        read.entries[b].fail(fmt::format("contact of a {} with a {} is not supported; a {} can touch: {}",
                                          second.kind_name(), first.kind_name(), second.kind_name(),
                                          touchable_kinds(second.kind)));
       pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));

@@ -33,7 +33,7 @@ PointDistance<T> distance_to_point(const Triple<T>& p, const Triple<T>& foot) {
   const Triple<T> way = p - foot;
   const T squared = dot(way, way);
   if (value_of(squared) < 1e-24)
-    throw ComputationError("they have gone so deep into each other that nothing tells where they came from");
+    throw ComputationError("they have penetrated each other so deeply that the direction of the contact force is lost");
   const T distance = sqrt(squared);
   return {distance, (T(1) / distance) * way, foot};
 }

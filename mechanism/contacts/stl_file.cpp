@@ -48,7 +48,9 @@ std::vector<Vector3> read_text_stl(const std::string& text, const std::string& p
       throw InputError(fmt::format("{}:{}: expected three numbers after `vertex`", path, number));
     corners.push_back(unit * corner);
   }
-  if (corners.size() % 3 != 0) throw InputError(fmt::format("{}: {} corners make no triangles", path, corners.size()));
+  if (corners.size() % 3 != 0)
+    throw InputError(
+        fmt::format("{}: {} corners are no multiple of three: some triangle is incomplete", path, corners.size()));
   return corners;
 }
 

@@ -194,7 +194,8 @@ std::string describe_massless(const Model& model, const System& system, const St
   for (const auto& [element, count] : inner)
     text += fmt::format("  massless     {} of '{}'\n", counted(count, "inner node"), element);
   if (!text.empty())
-    text += "               what has no mass must be held (`fixed`), joined to something, or given inertia by a body\n";
+    text +=
+        "               a part without mass must be held (`fixed`), joined to something, or given inertia by a body\n";
   return text;
 }
 

@@ -97,7 +97,7 @@ Matrix6 read_stiffness(const YamlValue& value, bool symmetric = true) {
   MatrixX K = read_diagonal_or_matrix(value);
   if (symmetric) make_symmetric(value, K);
   check_semidefinite(value, 0.5 * (K + K.transpose()),
-                     "a spring that pushes away from where it is free; what is to do so is one of the `curves`");
+                     "a spring that pushes away from its free position; give such a force by `curves`");
   return K;
 }
 
@@ -186,7 +186,7 @@ void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* wh
     scale[k] = A(k, k) > 0 ? 1 / std::sqrt(A(k, k)) : 0;
   }
   const MatrixX scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  if (!scaled.allFinite()) value.fail("has entries of sizes that do not go together");
+  if (!scaled.allFinite()) value.fail("has entries of incompatible sizes");
   const double least = symmetric_eigenpairs(scaled).values[0];
   if (least < -rounding_of_files)
     value.fail(
@@ -226,7 +226,7 @@ ElasticFormulas read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
   const auto stiffness = entry.find("stiffness"), damping = entry.find("damping"), preload = entry.find("preload"),
              curves = entry.find("curves"), film = entry.find("film"), maxwell = entry.find("maxwell");
   if (const auto unsymmetric = entry.find("unsymmetric"); unsymmetric && !stiffness)
-    unsymmetric->fail("says something about the `stiffness`, which is missing");
+    unsymmetric->fail("applies to the `stiffness`, which is missing");
   if (stiffness) law.K = read_stiffness(*stiffness, !entry.at("unsymmetric").boolean());
   if (damping) law.D = read_damping(*damping, law.K);
   if (preload) {

@@ -42,7 +42,7 @@ PyObject* add(pybind11::module_& module, const char* name, const char* doc, PyOb
 
 void bind_errors(pybind11::module_& module) {
   any_error =
-      add(module, "Error", "What Bielle cannot do: an InputError, a ComputationError, or a call at the wrong time.",
+      add(module, "Error", "Base of the errors of Bielle: InputError, ComputationError, and calls at the wrong time.",
           PyExc_Exception);
   input_error =
       add(module, "InputError",

@@ -52,7 +52,7 @@ auto vector_of_node(Member member) {
 void bind_state(py::module_& module) {
   py::class_<State, std::shared_ptr<State>>(
       module, "State",
-      "All numbers that move, of one instant: a copy, whose arrays are views of it and may be written "
+      "State of the mechanism at one instant: a copy, whose arrays are views of it and may be written "
       "(Session.set_state).\n\nNodes stand in the order of Model.nodes; the first is the ground.")
       .def(py::init<const State&>(), "A copy of another state.")
       .def_readwrite("time", &State::time, "[s]")

@@ -70,8 +70,8 @@ Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archiv
   }
   if (!why.empty())
     throw InputError(
-        "what is to be gone on from (the last checkpoint, or what was saved) holds other numbers than this program "
-        "goes on from: it was written by another version, or is damaged: " +
+        "the state to continue from (the last checkpoint, or a saved state) does not hold the numbers that this "
+        "program needs: it was written by another version, or is damaged: " +
         why);
   end_ = parts_.begin + options.duration;
   saved_ = true;

@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why = "") {
-  throw InputError("what is to be restored was not saved by a session of this model in this version" +
+  throw InputError("the state to be restored was not saved by a session of this model in this version" +
                    (why.empty() ? "" : ": " + why));
 }
 
@@ -89,7 +89,8 @@ void Session::restore(const std::vector<double>& values) {
   Motion::Parts parts = restored(archive, [&] {
     exchange(archive, saved);
     if (saved.moving && !motion_)
-      throw InputError("what is to be restored is in motion, and no motion is under way: start it from what was saved");
+      throw InputError(
+          "the state to be restored is in motion, and no motion is under way: start a motion from the saved state");
     Motion::Parts read = saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
     read.steps = read.saves = 0;
     if (saved.moving && archive.exhausted()) recorder_.step_recorders().set(read.gathered);
@@ -117,7 +118,7 @@ Motion Session::dynamics(const DynamicsOptions& options, const std::vector<doubl
   } catch (const std::out_of_range& error) {
     refuse(error.what());
   }
-  if (!saved.moving) throw InputError("what was saved is not in motion: restore it, and start a motion");
+  if (!saved.moving) throw InputError("the saved state is not in motion: restore it, and start a motion");
   return Motion(*this, options, archive, nullptr, saved.report);
 }
 

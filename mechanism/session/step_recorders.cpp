@@ -52,7 +52,7 @@ VectorX StepRecorders::numbers() {
 
 void StepRecorders::set(const VectorX& numbers) {
   if (numbers.size() != this->numbers().size())
-    throw InputError("what is gone on with has gathered other `peaks` than the model asks for");
+    throw InputError("the state to continue from has gathered other `peaks` than the model asks for");
   Archive archive(std::vector<double>(numbers.begin(), numbers.end()));
   for (const One& one : all_) one.recorder->exchange(archive);
 }

@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 namespace {
 
-[[noreturn]] void refuse_state(const std::string& why) { throw InputError("no state of this model: " + why); }
+[[noreturn]] void refuse_state(const std::string& why) { throw InputError("not a state of this model: " + why); }
 
 void check_node(const std::string& name, const NodeState& node) {
   for (const auto& [what, vector] :
@@ -40,9 +40,9 @@ void check_memory(const System& system, const State& start, const State& state) 
     const Slots& slots = system.slots()[m];
     for (int k = slots.memory_begin; k < slots.memory_begin + slots.memories; ++k)
       if (!std::isfinite(state.memory[k]) && !(std::isnan(state.memory[k]) && std::isnan(start.memory[k])))
-        refuse_state(fmt::format("{} remembers a number that is not finite", describe(model.members()[m])));
+        refuse_state(fmt::format("the memory of {} has a number that is not finite", describe(model.members()[m])));
     if (slots.memories > 0 && !model.members()[m].component->knows_memory(LocalState(state, slots, model.environment)))
-      refuse_state(fmt::format("{} remembers what cannot be", describe(model.members()[m])));
+      refuse_state(fmt::format("the memory of {} has values that are impossible", describe(model.members()[m])));
   }
 }
 
@@ -64,7 +64,7 @@ void check_state(const System& system, const State& state) {
   const auto flags = static_cast<std::size_t>(start.multiplier.size());
   if (!state.idle.empty() && state.idle.size() != flags) refuse_state("it has other constraints");
   if (state.memory.size() != start.memory.size())
-    refuse_state(fmt::format("it remembers {} numbers in place of {}", state.memory.size(), start.memory.size()));
+    refuse_state(fmt::format("its memory has {} numbers in place of {}", state.memory.size(), start.memory.size()));
   check_memory(system, start, state);
 }
 

@@ -139,12 +139,12 @@ bool is_finite(const Energy& e) {
                        : bad(energy.dissipation) ? "dissipated power"
                                                  : "power";
     throw ComputationError(
-        fmt::format("t = {:.6g} s: the {} of {} is beyond all numbers (overflow): what it is made of is of sizes that "
-                    "do not go together; look at its values, and at their units",
+        fmt::format("t = {:.6g} s: the {} of {} is too large for a number (overflow): its values are of incompatible "
+                    "sizes; check them, and their units",
                     state.time, what, describe(members[m])));
   }
   throw ComputationError(fmt::format(
-      "t = {:.6g} s: the energy of the whole is beyond all numbers (overflow), though that of each part is not",
+      "t = {:.6g} s: the energy of the mechanism is too large for a number (overflow), though that of each part is not",
       state.time));
 }
 

@@ -236,8 +236,8 @@ void DistributedMatrices::check_regular(const Factor& factor, const std::vector<
     throw ComputationError("the stiffness of the body is singular in a released direction of an interface");
   const Eigen::Vector3d x = solid_.mesh.points.col(kept[static_cast<std::size_t>(unknown)] / 3);
   throw ComputationError(fmt::format(
-      "the stiffness of the body is singular: the part of the mesh around the point ({:.4g}, {:.4g}, {:.4g}) "
-      "m moves without resistance; it hangs on by a point or an edge only, or its cells are degenerate",
+      "the stiffness of the body is singular: the part of the mesh around the point ({:.4g}, {:.4g}, {:.4g}) m moves "
+      "without resistance; it is attached at a point or an edge only, or its cells are degenerate",
       x.x(), x.y(), x.z()));
 }
 

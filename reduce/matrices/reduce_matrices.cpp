@@ -184,7 +184,7 @@ std::string told_relief(const MatrixSet& set, Eigen::Index residual_vectors) {
     return "inertia_relief: amplitudes of modes do not tell how centrifugal fields act on them, so that only the six "
            "rigid accelerations are relieved, as far as the modes of the file allow";
   if (residual_vectors == 0)
-    return "inertia_relief: no residual vectors are needed, the modes have the answer to all accelerations";
+    return "inertia_relief: no residual vectors are needed, the modes represent the response to all accelerations";
   return fmt::format("inertia_relief: with {}, the answer to all accelerations is complete",
                      counted(residual_vectors, "residual vector"));
 }

@@ -150,7 +150,7 @@ void compare_shapes(const ElasticModes& a, const ElasticModes& modes_b, const Co
     const Eigen::Index j =
         seen[static_cast<std::size_t>(i)] ? counterpart(mac.row(i), a.frequencies(i), b) : Eigen::Index(-1);
     if (j < 0) {
-      subject.lines.push_back(fmt::format("{:5} {:10.6g}   moves no place in common", i + 1, a.frequencies(i)));
+      subject.lines.push_back(fmt::format("{:5} {:10.6g}   does not move any common point", i + 1, a.frequencies(i)));
       continue;
     }
     const double other = modes_b.frequencies(j), difference = a.frequencies(i) / other - 1;
@@ -158,7 +158,7 @@ void compare_shapes(const ElasticModes& a, const ElasticModes& modes_b, const Co
     subject.lines.push_back(fmt::format("{:5} {:10.6g} {:5} {:10.6g} {:+9.3g} % {:8.4f}", i + 1, a.frequencies(i),
                                         j + 1, other, 100 * difference, group));
     if (!std::exchange(is_first, false)) continue;
-    const std::string first = i == 0 ? "the first free mode" : "the first free mode that moves a place in common";
+    const std::string first = i == 0 ? "the first free mode" : "the first free mode that moves a common point";
     add_finding(
         subject, {"against_first_shape", 1 - group, shape_limit, first + " has a counterpart"},
         fmt::format("{}, {:.6g} Hz, has no counterpart: its largest MAC is {:.3f}", first, a.frequencies(i), group));
@@ -191,7 +191,7 @@ void compare_orthogonality(const MatrixStudy& a, const MatrixStudy& b, const Ela
     crossed = transposed_product(of_a.vectors, a.mass * *moved);
   } else {
     subject.lines.push_back(
-        "cross-orthogonality is not known: unknowns of neither have all a counterpart in the other");
+        "cross-orthogonality cannot be computed: either body has unknowns without a counterpart in the other");
     return;
   }
   std::string matched, others;

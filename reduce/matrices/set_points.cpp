@@ -134,8 +134,8 @@ Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, co
     if (std::none_of(found.is_left.begin() + static_cast<std::ptrdiff_t>(k),
                      found.is_left.begin() + static_cast<std::ptrdiff_t>(end), [](bool left) { return left; }))
       throw InputError(subjects[k],
-                       "its loads leave nothing for residual vectors: interfaces carry them, or the modes have their "
-                       "answer already; remove `residual`");
+                       "its loads leave nothing for residual vectors: interfaces carry them, or the modes represent "
+                       "their response already; remove `residual`");
     k = end;
   }
   const Eigen::Index count = found.eigenvalues.size();

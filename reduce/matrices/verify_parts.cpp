@@ -26,7 +26,7 @@ void verify_damping(const MatrixStudy& study, VerifiedSubject& subject) {
     Eigen::Index at = 0, motion = 0;
     const double worst = forces.cwiseAbs().maxCoeff(&at, &motion);
     add_finding(subject, {"rigid_motion_damping", worst, text_rounding, "moved as a whole, the body is not damped"},
-                fmt::format("the damping brakes rigid motions, most at {}: it may be proportional to the mass",
+                fmt::format("the damping resists rigid motions, most at {}: it may be proportional to the mass",
                             study.set.name_of(at)));
   }
   if (!study.modes || study.modes->eigenvalues.size() <= 6) return;

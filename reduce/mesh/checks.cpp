@@ -153,7 +153,7 @@ std::string loose_joints(const Mesh& mesh, const FaceTable& faces, const std::ve
   if (const std::string overlap = overlap_of_pieces(mesh, piece_of, {}, cell_tags); !overlap.empty())
     throw InputError(fmt::format("the body is in {} pieces that share no faces: {}; {}", pieces.size(),
                                  piece_names(pieces), overlap));
-  return fmt::format("{} parts of the body hang together by single nodes or edges only, about which they can turn: {}",
+  return fmt::format("{} parts of the body are connected by single nodes or edges only, about which they can turn: {}",
                      pieces.size(), piece_names(pieces));
 }
 

@@ -138,7 +138,7 @@ std::vector<int> order_of_pieces(const std::vector<CutFace>& between, int start,
         queue.push_back(other);
       }
   if (static_cast<int>(queue.size()) < count)
-    throw InputError("the body falls apart at a cut: what it hangs together by there are single nodes or edges");
+    throw InputError("the body falls apart at a cut: there it is connected by single nodes or edges only");
   return number;
 }
 

@@ -60,10 +60,10 @@ void FixedInterfaceBody::factorise(const BodyMatrices& matrices, const Solid& so
     if (error.unknown() < static_cast<std::int64_t>(interior.kept.size())) {
       const Eigen::Vector3d x = solid.mesh.points.col(interior.kept[error.unknown()] / 3);
       const char* reduced = "reduced integration leaves hourglass modes, leave 'integration: reduced' out; or ";
-      throw ComputationError(fmt::format(
-          "the stiffness of the body is singular at the point ({:.4g}, {:.4g}, {:.4g}) m: {}a part of the mesh "
-          "hangs on there by a point or an edge only, or its cells are degenerate",
-          x.x(), x.y(), x.z(), solid.integration == Integration::reduced ? reduced : ""));
+      throw ComputationError(
+          fmt::format("the stiffness of the body is singular at the point ({:.4g}, {:.4g}, {:.4g}) m: {}a part of the "
+                      "mesh is attached there at a point or an edge only, or its cells are degenerate",
+                      x.x(), x.y(), x.z(), solid.integration == Integration::reduced ? reduced : ""));
     }
     throw ComputationError("the stiffness of the body is singular in a released direction of an interface");
   }

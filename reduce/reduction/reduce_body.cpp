@@ -187,7 +187,8 @@ void add_all_residual_vectors(const ReductionOptions& options, std::vector<Resid
   progress.start("residual vectors");
   add_residual_vectors(requests, matrices, held, basis);
   if (relieved && basis.residual_vectors == 0)
-    progress.note("inertia_relief: no residual vectors are needed, the modes have the answer to all accelerations");
+    progress.note(
+        "inertia_relief: no residual vectors are needed, the modes represent the response to all accelerations");
 }
 
 }  // namespace
@@ -255,7 +256,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   add_recovery(solid, options, basis.shapes, threads, body);
 
   if (options.judged) {
-    progress.start("what it is good for");
+    progress.start("range of validity");
     body.adequacy = measure_adequacy({solid, matrices, ties, held, basis}, body, geometric.load_fields, threads);
     body.adequacy->wanted = options.modes.below.value_or(0);
   }

@@ -24,8 +24,8 @@ void check_damping(const ReductionOptions& options, Progress& progress) {
                      Subject::hidden);
   if (options.rayleigh && options.rayleigh->front() > 0)
     progress.warn("damping",
-                  "alpha damps the deformation of each piece alone: the body's low modes, in which pieces move "
-                  "almost as rigid bodies, hardly feel it",
+                  "alpha damps the deformation of each piece alone: it hardly damps the body's low modes, in which "
+                  "pieces move almost as rigid bodies",
                   Subject::hidden);
 }
 

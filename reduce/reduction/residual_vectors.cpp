@@ -35,10 +35,9 @@ void check_requests(const std::vector<ResidualRequest>& requests, const std::vec
   for (const ResidualRequest& request : requests) {
     const auto end = first + request.loads.cols();
     if (!request.may_be_empty && std::none_of(first, end, [](bool left) { return left; }))
-      throw InputError(
-          request.subject,
-          "its loads leave nothing for residual vectors: interfaces carry them, or the modes have their answer "
-          "already; remove `residual`");
+      throw InputError(request.subject,
+                       "its loads leave nothing for residual vectors: interfaces carry them, or the modes represent "
+                       "their response already; remove `residual`");
     first = end;
   }
 }

@@ -173,7 +173,7 @@ std::string describe(const Superelement& body) {
 }
 
 std::string describe(const std::vector<Check>& checks) {
-  std::string result = "checks of the arithmetic; whether the reduction is good enough, the verdict says\n";
+  std::string result = "checks of the arithmetic (the verdict says whether the reduction is good enough)\n";
   for (const Check& check : checks) {
     result += fmt::format("  {}  {:8.1e} (at most {:.0e})  {}\n", check.passed() ? "passed" : "FAILED", check.value,
                           check.limit, check.meaning);

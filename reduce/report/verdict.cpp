@@ -122,8 +122,8 @@ void judge_inertia(const Superelement& body, const Adequacy& found, Findings& fi
           : fmt::format("; spinning about them by {:.0f}, {:.0f} and {:.0f} %", whole(answer_to_spin(answer, 0)),
                         whole(answer_to_spin(answer, 1)), whole(answer_to_spin(answer, 2)));
   findings.lines.emplace_back(fmt::format(
-      "inertia: under accelerations along x, y, z the body, held at its interfaces, gives way by {:.0f}, {:.0f} and "
-      "{:.0f} % of what the mesh does{}",
+      "inertia: under accelerations along x, y, z the body, held at its interfaces, deflects by {:.0f}, {:.0f} and "
+      "{:.0f} % of the deflection of the mesh{}",
       whole(found.inertia_answer.x()), whole(found.inertia_answer.y()), whole(found.inertia_answer.z()), spins));
 }
 

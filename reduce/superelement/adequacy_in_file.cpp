@@ -57,7 +57,7 @@ void write_adequacy(const Adequacy& adequacy, Hdf5File& file) {
   file.write("/adequacy/worst_place", Eigen::VectorXd(adequacy.worst_place), "m",
              "where the error of stress is largest");
   file.write("/adequacy/inertia_answer", Eigen::VectorXd(adequacy.inertia_answer), "-",
-             "share of the held body's answer to accelerations along x y z that the modes have");
+             "fraction of the held body's static response to accelerations along x y z that the modes represent");
   file.write("/adequacy/next_mode", adequacy.next_mode, "Hz", "first fixed-boundary mode left out; 0: unknown");
   file.write("/adequacy/wanted", adequacy.wanted, "Hz", "modes.below of the body file; 0: not given");
   file.write("/adequacy/element_order", static_cast<double>(adequacy.order), "-");

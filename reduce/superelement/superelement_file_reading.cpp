@@ -169,12 +169,12 @@ void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& b
   }
   if (!sum)
     reader.fail(
-        "the attribute 'checksum' is no whole number: it is none of bielle-reduce, whose sums are. A file of another "
-        "program goes without it, or has its own sum under another name");
+        "the attribute 'checksum' is no whole number, so that bielle-reduce has not written it. A file of another "
+        "program leaves it out, or has its own sum under another name");
   if (*sum == sum_of(body)) return;
   reader.fail(
       "its numbers are not those that were written: it is damaged, was changed, or has points of an earlier version; "
-      "run bielle-reduce again (who changes numbers on purpose removes the attribute 'checksum')");
+      "run bielle-reduce again (after a change on purpose, remove the attribute 'checksum')");
 }
 
 void read_head(const Hdf5File& file, Superelement& body) {

@@ -105,9 +105,9 @@ void write_judgement(Hdf5File& file, const Superelement& body) {
   if (body.inertia_answer.whole.size() == 0) return;
   constexpr const char* units = "J/(c_i c_j)";
   file.write("/reduced/inertia_answer/whole", body.inertia_answer.whole, units,
-             "of the held body's static answer to acceleration fields c: direction x y z times 1 x y z");
+             "of the held body's static response to acceleration fields c: direction x y z times 1 x y z");
   file.write("/reduced/inertia_answer/missing", body.inertia_answer.missing, units,
-             "of that what modes and residual vectors have not");
+             "part of it that modes and residual vectors do not represent");
 }
 
 void write_mesh(Hdf5File& file, const SuperelementMesh& mesh) {

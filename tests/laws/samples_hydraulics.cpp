@@ -216,6 +216,22 @@ std::vector<Sample> cylinders() {
                {{"ports", "[p, p]", "the same place"}}, "  supplies: {tank: {pressure: 0}}\n")};
 }
 
+/// The measures of a cylinder with friction: a spring between its nodes uses them.
+Sample measured_cylinder() {
+  Sample sample{Section::elements,
+                "spring_damper",
+                "measures of a cylinder",
+                circuit(""),
+                {{"force", "jack.forc", "did you mean 'force'"}}};
+  sample.model +=
+      "elements:\n  jack: {type: hydraulic_actuator, nodes: [a, b], at: [[0.1, 0, 0.2], [0, 0.2, 0.1]], stroke: [0.5, "
+      "2.5], piston_areas: [1.2, 0.7], dead_volumes: [3, 4], ports: [p, t], friction: {viscous: 0.3, coulomb: 0.4, "
+      "velocity: 0.5}}\n"
+      "  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0.1, 0.3, 0.2]], force: \"0.5*jack.force + "
+      "0.3*jack.length^2 - 0.2*jack.length.rate + 0.1*jack.pressure_2\"}\n";
+  return sample;
+}
+
 }  // namespace
 
 std::vector<Sample> hydraulic_samples() {
@@ -232,6 +248,7 @@ std::vector<Sample> hydraulic_samples() {
     list.push_back(sample);
   for (const auto& more : {places, cylinders})
     for (Sample& sample : more()) list.push_back(std::move(sample));
+  list.push_back(measured_cylinder());
   return list;
 }
 

@@ -41,7 +41,7 @@ void StiffnessField::declare(Declaration& declaration) const {
 void StiffnessField::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const Vector3 psi = PairRotation(state.node(0), state.node(1), frames_[0].R, frames_[1].R).psi();
   check_half_turn(state, fmt::format("stiffness_field '{}'", name()), psi, memory.head<3>(),
-                  "What is to turn freely about an axis is a `bearing` or a hinge");
+                  "For a part that turns freely about an axis, take a `bearing` or a hinge");
   memory.head<3>() = psi;
 }
 
@@ -160,7 +160,7 @@ void read_stiffness_field(const std::string& name, const YamlValue& entry, Model
   const Frame &a = model.node(nodes[0]).frame, &b = model.node(nodes[1]).frame;
   const Matrix3 axes = read_orientation(entry);
   const Vector3 way = axes.transpose() * (b.x - a.x);
-  const Matrix6 K = read_field(entry.at("stiffness"), way, true, "a field that pushes away from where it is free");
+  const Matrix6 K = read_field(entry.at("stiffness"), way, true, "a field that pushes away from its free position");
   Matrix6 D = Matrix6::Zero();
   if (const auto damping = entry.find("damping"))
     D = damping->is_scalar() ? Matrix6(damping->number() * K)

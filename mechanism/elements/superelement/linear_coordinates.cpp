@@ -81,8 +81,8 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     before = step;
   }
   throw ComputationError(
-      "it is deformed beyond what the theory of second order describes (bodies that bend or twist by more "
-      "than some 0.3 rad want several superelements: `pieces` in the body file)");
+      "it is deformed beyond what the theory of second order describes (bodies that bend or twist by more than some "
+      "0.3 rad need several superelements: `pieces` in the body file)");
 }
 
 void LinearCoordinates::set_excess() {

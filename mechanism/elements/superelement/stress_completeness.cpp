@@ -62,7 +62,8 @@ std::vector<ResultArray> StressCompleteness::results() {
            {},
            {modes_share_},
            "-",
-           "what modes have of the held body's answer to the accelerations, where most is missing"}};
+           "fraction of the held body's static response to the accelerations that the modes represent, at the time at "
+           "which most is missing"}};
 }
 
 std::string StressCompleteness::summary() {
@@ -70,8 +71,8 @@ std::string StressCompleteness::summary() {
   if (missing < worth_a_word) return {};
   return fmt::format(
       "  {}superelement '{}' lacks about {:.0f} % of its stress (energy norm): under the accelerations at {} its "
-      "modes, with "
-      "the interfaces held, give way by {:.1f} % of what the mesh does; reduce it with `inertia_relief: true`\n",
+      "modes, with the interfaces held, deflect by {:.1f} % of the deflection of the mesh; reduce it with "
+      "`inertia_relief: true`\n",
       modes_share_ < enough_of_answer ? "warning: " : "", body_, 100 * missing,
       statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_), 100 * modes_share_);
 }

@@ -153,10 +153,10 @@ SuperelementBody::Loan SuperelementBody::evaluate_positions(const LocalState& st
   try {
     work->motion.set_positions(*matrices_, frame_, state);
   } catch (const ComputationError& error) {
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: superelement '{}': {}. What drives them there is the cause: a step too long, nodes that "
-        "no joint holds, or a body far too soft for its loads (young in Pa?)",
-        state.time(), name(), error.what()));
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: superelement '{}': {}. The cause is a step that is too long, nodes that no joint "
+                    "holds, or a body far too soft for its loads (young in Pa?)",
+                    state.time(), name(), error.what()));
   }
   work->known.positions = true;
   return work;

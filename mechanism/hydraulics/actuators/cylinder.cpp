@@ -219,7 +219,7 @@ void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
   }
   if (p[0] <= volumes_[0]->fluid().vacuum())
     throw ComputationError(
-        fmt::format("t = {:.6g} s: the load pulls hydraulic_actuator '{}', whose only chamber can but push (its "
+        fmt::format("t = {:.6g} s: the load pulls hydraulic_actuator '{}', whose only chamber can only push (its "
                     "pressure would be {:.4g} Pa): give it a second one, or `pressures` to start from",
                     state.time(), name(), p[0]));
   for (std::size_t k = 0; k < chambers_.size(); ++k) {

@@ -191,7 +191,7 @@ class ActuatorReader {
     if (const auto leakage = entry_.find("leakage")) {
       const double conductance = leakage->number();
       if (chambers_ == 1)
-        leakage->fail("leads from one chamber to the other, and there is one alone: give `external_leakage`");
+        leakage->fail("leads from one chamber to the other, and there is only one: give `external_leakage`");
       if (conductance > 0)
         add(std::make_unique<Leakage>(part("leakage"), *places[0], places[1], conductance), part("leakage"));
     }

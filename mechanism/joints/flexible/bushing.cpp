@@ -75,7 +75,7 @@ void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
   Vector3 before;
   for (int k = 0; k < 3; ++k) before[k] = memory[kept(k)];
   check_half_turn(state, fmt::format("bushing '{}'", name()), psi, before,
-                  "What is to turn freely about an axis is a `bearing` or a hinge");
+                  "For a part that turns freely about an axis, take a `bearing` or a hinge");
   for (int k = 0; k < 3; ++k) memory[kept(k)] = psi[k];
 }
 

@@ -201,8 +201,9 @@ void ShaftBearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) c
   constexpr std::size_t entry = 2;  // the memory holds [value, rate] of each coordinate
   const Vector3 tilt(measures[tilt_x].value, measures[tilt_y].value, 0),
       before(memory[entry * tilt_x], memory[entry * tilt_y], 0);
-  check_half_turn(state, fmt::format("{} '{}'", type(), name()), tilt, before,
-                  "What is to tilt freely is a `spherical` joint, or a `bushing` without stiffness of rotations");
+  check_half_turn(
+      state, fmt::format("{} '{}'", type(), name()), tilt, before,
+      "For a part that tilts freely, take a `spherical` joint, or a `bushing` without stiffness of rotations");
   memory[entry * tilt_x] = tilt.x();
   memory[entry * tilt_y] = tilt.y();
 }

@@ -95,8 +95,8 @@ ForceCurve read_radial_curve(const YamlValue& value) {
     for (Eigen::Index k = 0; k < table.rows(); ++k)
       if (table(k, 0) > 0 && (!(table(k, 1) > 0) || (k > 0 && table(k, 1) < table(k - 1, 1))))
         throw InputError(
-            fmt::format("{}: a tyre pushes, and no less if it is pressed in farther: the force of {:.6g} N "
-                        "at {:.6g} m does not",
+            fmt::format("{}: the force of a tyre is positive and does not fall as the deflection grows; that of {:.6g} "
+                        "N at {:.6g} m contradicts this",
                         path, table(k, 1), table(k, 0)));
     if (!(curve.last() > 0)) throw InputError(fmt::format("{}: expected deflections greater than 0", path));
     return curve;

@@ -60,12 +60,12 @@ void SoughtEfforts::find_directions() {
         names.push_back(name_of(directions_.back()));
       }
   if (directions_.size() != efforts_.size())
-    throw InputError(fmt::format(
-        "{} sought, and {} prescribed by the `motion` of nodes{}{}: inverse dynamics needs as many of the ones as of "
-        "the others (`moves` of a drive names the nodes that are meant, `fixed` holds a direction)",
-        counted(static_cast<int>(efforts_.size()), "effort is", "efforts are"),
-        counted(static_cast<int>(directions_.size()), "direction is", "directions are"), names.empty() ? "" : ": ",
-        fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("{} sought, and {} prescribed by the `motion` of nodes{}{}: inverse dynamics needs equal numbers "
+                    "of both (`moves` of a drive names the nodes that are meant, `fixed` holds a direction)",
+                    counted(static_cast<int>(efforts_.size()), "effort is", "efforts are"),
+                    counted(static_cast<int>(directions_.size()), "direction is", "directions are"),
+                    names.empty() ? "" : ": ", fmt::join(names, ", ")));
   holders_.assign(nodes_.size(), {nullptr, 0});
   for (std::size_t m = 0; m < model.members().size(); ++m)
     if (const auto* support = dynamic_cast<const NodeSupport*>(model.members()[m].component.get()))

@@ -218,11 +218,11 @@ void March::pass_events(MarchStep& step) {
 }
 
 void March::throw_chattering(int event_function) const {
-  throw ComputationError(fmt::format(
-      "t = {:.6g} s: {} is met again and again without the motion going on; give the contact some compliance, or the "
-      "switch some hysteresis",
-      integration_.state().time,
-      integration_.system().event_functions()[static_cast<std::size_t>(event_function)].name));
+  throw ComputationError(
+      fmt::format("t = {:.6g} s: {} occurs again and again while the time does not advance; give the contact some "
+                  "compliance, or the switch some hysteresis",
+                  integration_.state().time,
+                  integration_.system().event_functions()[static_cast<std::size_t>(event_function)].name));
 }
 
 void March::note(const std::vector<int>& passed, MarchStep& step) {

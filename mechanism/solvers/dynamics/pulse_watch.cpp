@@ -206,8 +206,8 @@ std::vector<std::string> PulseWatch::warnings() const {
       if (!(total.off > std::max(visible_position * size, no_motion * extent))) return;
       if (!named.insert(total.name).second) return;
       warnings.push_back(
-          fmt::format("{} moves between steps: up to {:.4g} {} away from what their ends tell, farthest in the step to "
-                      "t = {:.6g} s; take smaller steps",
+          fmt::format("{} moves between steps: up to {:.4g} {} away from the curve through their ends, farthest in the "
+                      "step to t = {:.6g} s; take smaller steps",
                       total.name, total.missed, formula.units, total.most_at));
       return;
     }

@@ -147,7 +147,7 @@ class PoleFinder {
   [[noreturn]] static void throw_defective(Complex s) {
     throw ComputationError(fmt::format(
         "modes cannot be superposed: the eigenvalue {:.6g} {:+.6g} i 1/s has fewer shapes than its multiplicity (it is "
-        "defective, or nearly so), and answers are no sum of modes there: leave `modes` out",
+        "defective, or nearly so), and responses are not sums of modes there: leave `modes` out",
         s.real(), s.imag()));
   }
 
@@ -170,7 +170,7 @@ std::vector<ModalPole> modal_poles(const LinearisedEquations& equations, const s
     for (const std::vector<std::size_t>& group : equal_ones(modes)) finder.add(modes, group, poles);
     return poles;
   }
-  throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");
+  throw ComputationError("the linearised equations are singular at every frequency (`eigen` names the cause)");
 }
 
 }  // namespace bielle::mechanism

@@ -292,7 +292,7 @@ double Mode::damped_frequency() const { return std::abs(s.imag()) / (2 * std::nu
 double Mode::damping_ratio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
 
 SingularEquations::SingularEquations(int at)
-    : ComputationError("the linearised equations are singular whatever the frequency"), at_(at) {}
+    : ComputationError("the linearised equations are singular at every frequency"), at_(at) {}
 
 namespace {
 

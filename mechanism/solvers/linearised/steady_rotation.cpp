@@ -243,7 +243,7 @@ void check_turns(const System& system, const Environment& environment, const Tur
   constexpr double agrees = 1e-6;
   for (int k = 0; k < system.multipliers(); ++k)
     if (std::abs(velocity[k]) > agrees * rate * sizes[k] && !(part && part->drives_joint(k)))
-      throw ComputationError(fmt::format("{} cannot turn as a whole: {} does not let it ({:.3g} {}/s)", turning,
+      throw ComputationError(fmt::format("{} cannot turn as a whole: {} prevents it ({:.3g} {}/s)", turning,
                                          system.equation_name(system.size() - system.multipliers() + k), velocity[k],
                                          system.equation_units(system.size() - system.multipliers() + k)));
   std::vector<NodeState> wanted = state.nodes;

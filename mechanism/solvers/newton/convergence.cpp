@@ -157,7 +157,7 @@ double Convergence::size_of(const Eigen::Ref<const VectorX>& r) const {
 std::string Convergence::worst() const {
   if (worst_ < 0) return "none";
   if (!std::isfinite(worst_residual_))
-    return fmt::format("{}, which is beyond all numbers (overflow)", system_.equation_name(worst_));
+    return fmt::format("{}, which is too large for a number (overflow)", system_.equation_name(worst_));
   return fmt::format("{} ({:.2g} {})", system_.equation_name(worst_), worst_residual_, system_.equation_units(worst_));
 }
 

@@ -156,7 +156,7 @@ class AccelerationEquations {
     }
     if ((found.converged ? found : mirrored).determinant_sign != without)
       throw_ambiguous_accelerations(system_, state_.time,
-                                    "the one found is not the continuation of what there is without such forces", -1);
+                                    "the solution that was found does not continue the one without such forces", -1);
   }
 
  private:

@@ -71,7 +71,7 @@ std::string gap_text(const ClosingEquations& equations, const Owner& owner, cons
   if (distance > negligible * equations.half_extent()) parts.push_back(fmt::format("{:.4g} m", distance));
   if (angle > negligible) parts.push_back(angle_text(angle));
   if (!other.empty()) parts.push_back(other);
-  return parts.empty() ? "less than can be told" : fmt::format("{}", fmt::join(parts, " and "));
+  return parts.empty() ? "less than the rounding error" : fmt::format("{}", fmt::join(parts, " and "));
 }
 
 std::string condition_text(const ClosingEquations& equations, int row) {

@@ -136,7 +136,7 @@ class Path {
     Equilibrium equilibrium(ramp, options);
     equilibrium.look_for_loose(ramp.begin(), state);
     if (equilibrium.find(ramp.begin(), state) < 0)
-      throw ComputationError(fmt::format("static path: no equilibrium to set off from at load factor {:.6g}: {}",
+      throw ComputationError(fmt::format("static path: no equilibrium to begin from at load factor {:.6g}: {}",
                                          ramp.begin(), equilibrium.why()));
     equilibrium.accept(ramp.begin(), state);
     return state;
@@ -149,7 +149,7 @@ class Path {
     VectorX b;
     if (!step_.response(state_, factor_, b))
       throw ComputationError(
-          fmt::format("static path: the equations are singular at load factor {:.6g}, where it sets off: something can "
+          fmt::format("static path: the equations are singular at load factor {:.6g}, where it begins: something can "
                       "move without resistance",
                       factor_));
     const double response = step_.length(b);

@@ -136,7 +136,7 @@ VectorX Equilibrium::response(double factor, const State& state, double change) 
 void Equilibrium::respond(double factor, State& state, const State* before, Continuation& point) {
   environment_ = ramp_.environment(factor);
   evaluate(state);
-  if (!r_.allFinite()) throw ComputationError("a residual is beyond all numbers (overflow)");
+  if (!r_.allFinite()) throw ComputationError("a residual is too large for a number (overflow)");
   environment_.before = before;
   tangent_.factor(state, environment_);
   environment_.before = nullptr;

@@ -100,8 +100,8 @@ bool PathStep::iterate(const State& base, const PathCondition& condition, double
     trial.delta += a + change * b;
     trial.factor += change;
     if (!(length(trial.delta) <= longest)) {
-      why_ = fmt::format("Newton lost its way at load factor {:.6g}; largest residual: {}", trial.factor,
-                         convergence_.worst());
+      why_ = fmt::format("Newton left the neighbourhood of the path at load factor {:.6g}; largest residual: {}",
+                         trial.factor, convergence_.worst());
       return false;
     }
   }

@@ -134,8 +134,8 @@ void MumpsFactor::factorise() {
     const int status = m.of_all(1);
     if (status == -10 || status == -40)
       throw ComputationError(
-          "the stiffness of the body is singular: a part of the mesh hangs on by a point or an edge only, or its cells "
-          "are degenerate");
+          "the stiffness of the body is singular: a part of the mesh is attached at a point or an edge only, or its "
+          "cells are degenerate");
     if (status < 0)
       throw ComputationError(
           fmt::format("not enough memory for the factorisation of the stiffness matrix; a coarser mesh needs less, or "

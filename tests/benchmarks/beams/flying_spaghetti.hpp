@@ -63,7 +63,7 @@ inline void check(double EI, bool plane, double step, const std::vector<double>&
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Vector6 &coarse = errors[1][k], &fine = errors[2][k];
     CAPTURE(EI, plane, times[k], errors[0][k].transpose(), coarse.transpose(), fine.transpose());
-    // The steps are of second order; terms of higher order from the elements may still appear at late times.
+    // The steps are of second order. Terms of higher order from the elements may still appear at late times.
     CHECK(std::log2(coarse.norm() / fine.norm()) > 1.8);
     CHECK(((4 * fine - coarse) / 3).norm() < tolerance);
   }

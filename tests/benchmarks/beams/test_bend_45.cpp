@@ -27,12 +27,12 @@ struct Bend : StaticModel {
             "{}, "
             "section: {}}}}}\nloads: {{p: {{node: tip, force: [0, 0, 600]}}}}\n",
             bending, elements, section)) {}
-  /// Continues from the last load to P in steps of `step`.
+  /// Continues from the last load to P in increments of `step`.
   Vector3 tip(double P, double step) {
     const double from = dense.environment.load_factor == 1 && !moved_ ? 0 : dense.environment.load_factor;
     moved_ = true;
     const int steps = static_cast<int>(std::lround((P / 600 - from) * 600 / step));
-    REQUIRE(load(steps, 1e-5, P / 600, from) >= 0);  // the floor of the residual is EA epsilon |x|/L = 1e-7
+    REQUIRE(load(steps, 1e-5, P / 600, from) >= 0);  // the residual cannot fall below EA epsilon |x|/L = 1e-7
     return node("tip").x;
   }
   bool moved_ = false;
@@ -63,8 +63,8 @@ TEST_CASE("the 45-degree bend converges with the square of the element length") 
       }
       for (const auto& errors : {errors_300, errors_450, errors_600}) {
         CAPTURE(errors[0].transpose(), errors[1].transpose(), errors[2].transpose());
-        // With the residual flexibility only the change of curvature by the load is left to the mesh; if bending and
-        // torsion are equally stiff (the polar GJ is EI) even that is of fourth order.
+        // With the residual flexibility, the mesh has to represent only the change of curvature by the load. If bending
+        // and torsion are equally stiff (the polar GJ equals EI), the error is of fourth order.
         const bool constant = bending[0] == 'c', isotropic = name != "own";
         if (!constant && isotropic)
           CHECK_THAT(std::log2(errors[0].norm() / errors[1].norm()), Catch::WithinAbs(4, 0.25));
@@ -101,7 +101,7 @@ TEST_CASE("the load steps of a static analysis find the 45-degree bend, also fro
 }
 
 TEST_CASE("the 45-degree bend at five times the usual load by the steps that the program chooses") {
-  // P = 3000; the tip goes up by 68.5. References as above.
+  // P is 3000, and the tip rises by 68.5. The references are those of the case above.
   for (const auto& [name, section] : sections) {
     const Vector3 exact = bielle::test::ReferenceTable("bend_45").vector(name + ".3000");
     std::vector<double> errors;

@@ -40,7 +40,7 @@ TEST_CASE("the elastica of an inextensible cantilever") {
   for (const double alpha : {1, 2, 5, 10}) {
     const std::string row = fmt::format("inextensible_{}.", alpha);
     const Vector3 exact(1 - table(row + "shortening"), table(row + "deflection"), table(row + "slope"));
-    // Extension and shear change the tip by some alpha/EA.
+    // Extension and shear change the tip by about alpha/EA.
     const double EA = 1e6, same = 2 * alpha / EA;
     const std::vector<double> e = errors(exact, alpha, EA, EA, 50);
     CAPTURE(alpha, e);

@@ -17,7 +17,7 @@ TEST_CASE("flying spaghetti in the plane, EI = 500, converges to the reference")
 TEST_CASE("flying spaghetti in space converges to the reference") { check(500, false, 0.01, {5, 8}, 5e-3); }
 
 TEST_CASE("flying spaghetti: loads leave the momenta that their impulses say, and the energy of the reference") {
-  // P = int T/10 dt along x; H about the origin, and the energy, from the reference.
+  // The momentum is P = int T/10 dt along x; H about the origin and the energy are those of the reference.
   struct Case {
     double EI;
     bool plane;

@@ -29,7 +29,7 @@ std::string leg(const std::string& ends, int elements, const std::string& sectio
                      section);
 }
 
-/// Clamped at the root; a force in the plane at the tip.
+/// The frame is clamped at the root; a force in its plane acts at the tip.
 double cantilever_load(int elements, const std::string& section, int x, int y, double begin, double step,
                        double tolerance) {
   StaticModel frame(
@@ -40,11 +40,11 @@ double cantilever_load(int elements, const std::string& section, int x, int y, d
   return frame.critical_load(begin, step, 1e-6, tolerance);
 }
 
-/// End moments of either sign; the ends slide along x and turn about z.
+/// End moments of either sign act; the ends slide along x and turn about z.
 double hinged_load(int elements, const std::string& section, int sign) {
   StaticModel frame(
       "nodes:\n  left: {position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\n"
-      "  apex: {position: [0, '120*sqrt(2)', 0], fixed: [x]}\n"  // one place of the freely sliding body is held
+      "  apex: {position: [0, '120*sqrt(2)', 0], fixed: [x]}\n"  // one point of the sliding body is fixed
       "  right: {position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\nelements:\n  first: " +
       leg("[left, apex]", elements, section) + "  second: " + leg("[apex, right]", elements, section) +
       fmt::format("loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n", sign,
@@ -64,7 +64,7 @@ TEST_CASE("a cantilever right-angle frame buckles out of its plane") {
 }
 
 TEST_CASE("a cantilever right-angle frame under a load along its second leg") {
-  // The load acts towards the corner or away from it.
+  // The force acts towards the corner or away from it.
   const bielle::test::ReferenceTable table("buckling");
   for (const int direction : {-1, 1}) {
     const double exact = table(direction == -1 ? "thin.second_towards" : "thin.second_away");

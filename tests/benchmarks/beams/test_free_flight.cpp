@@ -32,7 +32,7 @@ Eigen::Matrix<double, 7, 1> invariants(const DenseModel& dense, const State& sta
 }  // namespace
 
 TEST_CASE("a tumbling flexible beam keeps its energy and momenta to the second order of the step") {
-  // The ends start with different motions: the beam bends, twists and stretches while it tumbles.
+  // The ends start with different velocities, so that the beam bends, twists and stretches while it tumbles.
   const ReadyModel model(R"yaml(
 nodes:
   a: {position: [0, 0, 0], velocity: [0.2, -0.5, 0.3], angular_velocity: [0.6, 1, 4]}

@@ -31,7 +31,7 @@ double number(const std::string& name) {
 
 Point point_of(const std::string& name) { return {number(name + ".P"), number(name + ".u"), number(name + ".v")}; }
 
-/// Follows the path of a model whose first analysis says where it ends. The node `load` carries a unit load.
+/// Follows the path of a model whose first analysis defines its end. The node `load` carries a unit load.
 struct Path {
   std::vector<Point> limits;
   Point end{};
@@ -128,12 +128,13 @@ TEST_CASE("Lee's frame: both limit points of the program's path, with full, redu
 }
 
 TEST_CASE("Lee's frame: points of the path before, between and past its limit points") {
-  // u grows until 94.3 and turns back, v turns back twice before: each end is met where it is first reached.
+  // u grows until 94.3 and then decreases; v decreases twice before. Each end of a path is reached where the
+  // displacement first has this value.
   for (const int k : {1, 2, 3, 4, 5}) {
     const Point exact = point_of(fmt::format("lee.end_{}", k));
     const std::string until_end = k <= 3 ? until("x", exact.u) : until("y", -exact.v);
     std::vector<double> errors;
-    for (const int elements : {5, 10, 20}) {  // from 40 on nothing but a small part of second order is left, 1e-6
+    for (const int elements : {5, 10, 20}) {  // from 40 on only a small part of second order is left, 1e-6
       const Point end = Path(lees_frame(elements, 4320 / 2.6, until_end)).end;
       errors.push_back(std::hypot((end.P - exact.P), (end.u - exact.u) / 120, (end.v - exact.v) / 120));
     }
@@ -169,7 +170,7 @@ TEST_CASE("the deep arch past its first limit point") {
 }
 
 TEST_CASE("the limit load of the deep arch without extension and shear") {
-  // EA = GA = 1e10 leave 1e-2 of the effect of EA = 1e8 and GA = 5e7: 3e-7 of the load.
+  // EA = GA = 1e10 reduces the effect of EA = 1e8 and GA = 5e7 to 1e-2 of it: 3e-7 of the load.
   std::vector<double> loads;
   for (const int elements : {10, 20, 40})
     loads.push_back(Path(deep_arch(elements, 1e10, 1e10, until("y", -116))).limits.front().P);
@@ -177,14 +178,14 @@ TEST_CASE("the limit load of the deep arch without extension and shear") {
 }
 
 TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points") {
-  // Span 100, rise 5, E = 1e6, A = 1, I = 1/12, hinged at both ends; nothing holds the crown in its middle. It
-  // bifurcates to its side at P = 75.00, where the path goes straight on; past the lower limit point it winds through
-  // shapes of more waves.
+  // Span 100, rise 5, E = 1e6, A = 1, I = 1/12, hinged at both ends; the crown may move to either side. The symmetric
+  // path has a bifurcation at P = 75.00, beyond which it continues; past the lower limit point it passes shapes of more
+  // waves.
   const double with_shear = 5.0 / 6 * 1e6 / 2.6, without_shear = 1e9;
   for (const double GA : {without_shear, with_shear}) {
     const std::string name = GA == without_shear ? "shallow" : "shallow_shear";
     std::vector<Point> upper, lower;
-    for (const int elements : {4, 8, 16}) {  // at 32 nothing but a part of second order is left, 2e-6
+    for (const int elements : {4, 8, 16}) {  // at 32 only a part of second order is left, 2e-6
       const std::string section = fmt::format(
           ", elements: {}, orientation: [0, 1, 0], section: {{EA: 1e6, GAy: {}, GAz: {}, GJ: 1e5, EIy: 1e6/12, EIz: "
           "1e6/12}}}}\n",

@@ -46,7 +46,7 @@ TEST_CASE("a static analysis rolls a beam up exactly: once with three elements, 
       settle(model, state, 24 * turns);
       CHECK(model.node(state, "tip").x.norm() < 1e-11);
       CHECK((model.node(state, "tip").R - Matrix3::Identity()).norm() < 1e-11);
-      // The first inner node, on the circle of radius L/(2 pi turns).
+      // The first inner node lies on the circle of radius L/(2 pi turns).
       const double radius = 3 / (2 * pi * turns), angle = 2 * pi * turns / elements;
       const Vector3 expected = radius * (std::sin(angle) * R.col(0) + (1 - std::cos(angle)) * R.col(1));
       CHECK((model.node(state, "b.1").x - expected).norm() < 1e-11);
@@ -54,7 +54,8 @@ TEST_CASE("a static analysis rolls a beam up exactly: once with three elements, 
 }
 
 TEST_CASE("half a turn by an end moment puts the tip above the root, in few load steps") {
-  // M = pi EI/L: the tip at (0, 2/pi L) = (0, 0.636619772368 L), turned by pi; any rod that does not shear or stretch.
+  // The moment is M = pi EI/L: the tip is at (0, 2/pi L) = (0, 0.636619772368 L) and turned by pi, for any rod that
+  // does not shear or stretch.
   const ReadyModel model(
       "nodes: {root: {fixed: true}, tip: {position: [3, 0, 0]}}\n"
       "elements: {b: {type: beam, nodes: [root, tip], elements: 3, section: {EA: 1e4, GAy: 3e3, GAz: 3e3, GJ: 20, EIy: "
@@ -66,7 +67,7 @@ TEST_CASE("half a turn by an end moment puts the tip above the root, in few load
 
 namespace {
 
-/// The state stands under loads and motions that are a little different from those of the model.
+/// The loads and motions of the state differ slightly from those of the model.
 const LoadSteps changed(1, {1, 1});
 
 /// Returns a curved cantilever whose loads and whose clamp's place are parameters.
@@ -94,7 +95,8 @@ TEST_CASE("static analyses of a load cycle end where they began, whatever the pa
   };
   const ReadyModel unloaded = loaded_arc(0, 0, false);
   const State start = unloaded.system.start(0);
-  // Three orders of loading: the force first and then the moment; the moment first; both at once by the load factor.
+  // The loads are applied in three orders: the force first and then the moment; the moment first; both at once by the
+  // load factor.
   State first = start, second = start, at_once = start;
   follow(first, 0, 0, 1, 0);
   follow(first, 1, 0, 1, 1);
@@ -135,9 +137,9 @@ TEST_CASE("static analyses that carry a bent beam around by its clamp keep its e
 }
 
 TEST_CASE("large load steps on beams take few iterations") {
-  // Residuals of stiff directions are a bad criterion: with steps that had to reduce them these took 186, 211 and 244
-  // iterations, with exact tangents and full steps 128, 240 and 75. About half of these follow the path through the
-  // increment, since its ends do not tell whether it has jumped.
+  // Residuals of stiff directions are a bad criterion: with steps that had to reduce them, these cases took 186, 211
+  // and 244 iterations; with exact tangents and full steps they take 128, 240 and 75. About half of these iterations
+  // follow the path within an increment, because the states at its ends do not show whether the path has jumped.
   const std::string bend =
       "nodes: {a: {fixed: true}, b: {position: ['50*sqrt(2)', '100 - 50*sqrt(2)', 0]}}\n"
       "elements: {beam: {type: beam, nodes: [a, b], arc_centre: [0, 100, 0], section: {rectangle: [1, 1], young: 1e7, "

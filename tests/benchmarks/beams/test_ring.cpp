@@ -36,7 +36,7 @@ VectorX frequencies(int elements, bool in_plane, const std::string& bending) {
   }
   const MatrixX K = ring.stiffness(), M = ring.dense.tangent(ring.state, DenseModel::Part::M)(ring.free, ring.free);
   const bielle::SymmetricEigenpairs eigen = bielle::symmetric_eigenpairs(0.5 * (K + K.transpose()), M).value();
-  // Out of the plane the ring floats: the first is zero.
+  // The ring is free out of its plane: the first frequency is zero.
   return eigen.values.segment(in_plane ? 0 : 1, 2).cwiseMax(0).cwiseSqrt();
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("the frequencies of a ring are those of Hoppe and Love") {
         for (int k = 0; k < 2; ++k) CHECK_THAT(std::log2(errors[2][k] / errors[3][k]), Catch::WithinAbs(2, 0.1));
         CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-3);
       } else {
-        // The order holds down to the 1e-6 of extension and thickness.
+        // The order is observed down to 1e-6, the effect of extension and thickness.
         for (int k = 0; k < 2; ++k) CHECK(std::log2(std::abs(errors[1][k] / errors[2][k])) > 3.7);
         CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-6);
       }

@@ -29,7 +29,7 @@ using bielle::test::StaticModel;
 
 namespace {
 
-/// L = m = EI = 1; stretch, shear and rotary inertia matter for less than 1e-6.
+/// L = m = EI = 1; stretch, shear and rotary inertia change the frequencies by less than 1e-6.
 struct RotatingBeam : StaticModel {
   Vector3 omega;
   RotatingBeam(int elements, double eta, double hub)
@@ -113,8 +113,8 @@ TEST_CASE("a rotating cantilever stiffens with its speed as it should") {
     const std::vector<double> across = RotatingBeam(16, eta, 0).frequencies(flap),
                               along = RotatingBeam(16, eta, 0).frequencies(lag);
     CAPTURE(eta, across[0], across[1], along[0], along[1]);
-    // 16 elements leave 2.5e-5 and 5.5e-5 at the highest speed, of fourth order; in the plane the first error grows
-    // six times where eta^2 is taken off.
+    // 16 elements have errors of 2.5e-5 and 5.5e-5 at the highest speed, which are of fourth order. In the plane the
+    // first error is six times as large, because eta^2 is subtracted.
     CHECK_THAT(across[0], Catch::WithinRel(mu1, 3e-5));
     CHECK_THAT(across[1], Catch::WithinRel(mu2, 7e-5));
     CHECK_THAT(along[0], Catch::WithinRel(std::sqrt(mu1 * mu1 - eta * eta), 2e-4));

@@ -46,7 +46,7 @@ Record spin_up(const Arm& arm, double h, double end) {
     if (std::abs(state.time - 10) < h / 4) record.at_10 = tip.y();
     if (state.time > 15) {
       record.last_largest = std::max(record.last_largest, std::abs(tip.y()));
-      sum += tip.x() - arm.L + tip.y() * tip.y() / (2 * arm.L);  // less what bending shortens, about
+      sum += tip.x() - arm.L + tip.y() * tip.y() / (2 * arm.L);  // less the shortening by bending, about
       ++count;
     }
   });
@@ -62,7 +62,7 @@ TEST_CASE("an arm that is spun up deflects as the geometrically exact rod (Simo 
   const ReferenceTable exact("spin_up");
   CHECK_THAT(fine.least, Catch::WithinRel(exact("simo_vu_quoc.least"), 3e-4));
   CHECK_THAT(fine.time_of_least, Catch::WithinAbs(exact("simo_vu_quoc.time"), 0.006));
-  // Second order in the step: its extrapolation leaves the error of the elements, 1e-5.
+  // The error is of second order in the step: its extrapolation leaves the error of the elements, 1e-5.
   CHECK_THAT((4 * fine.at_5 - coarse.at_5) / 3, Catch::WithinRel(exact("simo_vu_quoc.at_5"), 3e-5));
   CHECK_THAT((4 * fine.at_10 - coarse.at_10) / 3, Catch::WithinRel(exact("simo_vu_quoc.at_10"), 3e-5));
   CHECK_THAT(fine.last_largest, Catch::WithinRel(exact("simo_vu_quoc.swing"), 5e-2));

@@ -38,7 +38,7 @@ Found run(const std::string& text, int steps, double branch = 0) {
   return found;
 }
 
-/// Clamped at the foot, pressed along its axis by `load` times Euler's load of the weaker axis.
+/// The column is clamped at the foot and compressed along its axis by `load` times Euler's load of the weaker axis.
 std::string column(int elements, double load,
                    const std::string& section = "{rectangle: [0.02, 0.01], young: 2.1e11, poisson: 0.3}",
                    const std::string& fixed = "[]", double stiffness = EI / 4) {
@@ -59,8 +59,8 @@ TEST_CASE("a straight column at twice its critical load is reported unstable, fr
   CHECK(point.before == 0);
   CHECK(point.after == 1);
   CHECK(found.report.log.unstable == 1);
-  // Euler's load less shear and shortening, P = P_E (1 - P_E (1/GA_s - 1/EA)), G A_s = 5/6 G A. Elements of fourth
-  // order.
+  // The critical load is Euler's load reduced by shear and shortening, P = P_E (1 - P_E (1/GA_s - 1/EA)), G A_s = 5/6 G
+  // A. The error of the elements is of fourth order.
   const double shear = pi * pi / 4 * (0.01 * 0.01 / 12) * (2.6 / (5.0 / 6) - 1);
   std::vector<double> errors;
   for (const int elements : {4, 8})
@@ -100,7 +100,7 @@ TEST_CASE("the branch of a column is its elastica") {
 }
 
 TEST_CASE("the branch of a square column is the same elastica, to whatever side") {
-  // As above; EI is the same about both axes.
+  // The load is that of the case above; EI is the same about both axes.
   constexpr double K = 1.685750354812596, E = 1.467462209339427, k = 0.5;
   const Found found = run(
       column(16, std::pow(2 * K / pi, 2), "{EA: 1e6, GAy: 1e6, GAz: 1e6, GJ: 1, EIy: 1, EIz: 1}", "[]", 1), 10, 1e-3);
@@ -113,7 +113,7 @@ TEST_CASE("the branch of a square column is the same elastica, to whatever side"
 }
 
 TEST_CASE("a right-angle frame's critical loads are found by counting") {
-  // References of test_frame_buckling.cpp.
+  // The references are those of test_frame_buckling.cpp.
   const bielle::test::ReferenceTable exact("buckling");
   for (const int direction : {1, -1})
     check_load(exact(direction == 1 ? "saint_venant.away" : "saint_venant.towards"), [direction](int elements) {
@@ -163,7 +163,7 @@ TEST_CASE("a path of a shallow arch meets its bifurcation before its limit point
 }
 
 TEST_CASE("critical loads of one large increment are told one by one") {
-  // Euler's loads of the column: 1, 9, 25 of the first; the load is 12 of it.
+  // Euler's loads of the column are 1, 9 and 25 times the first one; the load is 12 times the first one.
   const Found found = run(column(16, 12, "{EA: 3e7, GAy: 1e9, GAz: 1e9, GJ: 1e9, EIy: 1e9, EIz: 1}", "[]", 1), 1);
   REQUIRE(found.report.log.critical.size() == 2);
   CHECK(found.report.log.unstable == 2);
@@ -191,8 +191,8 @@ TEST_CASE("critical loads do not depend on the unit of length, nor on how the fo
 }
 
 TEST_CASE("an inverted pendulum on a spring is unstable where its weight outweighs the spring") {
-  // The constants are c against m g l: two rigid bodies joined by constraints, so that the count is on their null
-  // space.
+  // The constants c are compared with m g l. Two rigid bodies are joined by constraints, so that the eigenvalues are
+  // counted on the null space of the constraints.
   for (const double spring : {15.0, 30.0}) {
     const std::string text = fmt::format(
         "gravity: [0, 0, -9.81]\nnodes: {{tip: {{position: [0, 0, 1]}}}}\n"

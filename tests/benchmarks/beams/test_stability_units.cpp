@@ -41,9 +41,9 @@ const std::string hinge = "type: hinge, axis: [0, 1, 0]", ball = "type: spherica
 }  // namespace
 
 TEST_CASE("hanging pendulums are stable, standing ones unstable along each motion, whatever their size") {
-  // The potential energy of n rods is m g l sum_k (n - k + 1/2)(1 - cos): each angle has a positive stiffness if they
-  // hang, and a negative one if they stand. Spherical joints let each rod swing in two planes and spin about itself,
-  // which costs no energy.
+  // The potential energy of n rods is m g l sum_k (n - k + 1/2)(1 - cos): each angle has a positive stiffness if the
+  // rods hang, and a negative one if they stand. Spherical joints let each rod swing in two planes and spin about
+  // itself, which needs no energy.
   for (const double l : {1.0, 1e-3, 1e3})
     for (const int count : {1, 2, 5})
       for (const std::string& joint : {hinge, ball}) {
@@ -60,7 +60,8 @@ TEST_CASE("hanging pendulums are stable, standing ones unstable along each motio
 }
 
 TEST_CASE("a rod that slides freely along its axle is indifferent and makes nothing unstable") {
-  // As above, in oblique axes; the second of three rods slides. Compliant joints would let it slide down.
+  // The rods are those of the case above, in oblique axes; the second of three rods slides. With compliant joints the
+  // weight would move it down.
   for (const double l : {1.0, 0.05, 20.0})
     for (const double sign : {1.0, -1.0})
       for (const char* axle : {"[0, 1, 0]", "[0.64, 0.6, -0.48]"}) {
@@ -83,7 +84,7 @@ TEST_CASE("a rod that slides freely along its axle is indifferent and makes noth
 }
 
 TEST_CASE("a pendulum's verdict counts its spring, whatever its size") {
-  // The inverted pendulum stands where its spring outweighs m g l/2.
+  // The inverted pendulum is stable if the stiffness of its spring exceeds m g l/2.
   for (const double l : {1e-3, 1.0, 1e3})
     for (const double share : {0.9, 0.999, 1.001, 1.1}) {
       CAPTURE(l, share);
@@ -96,7 +97,7 @@ TEST_CASE("a pendulum's verdict counts its spring, whatever its size") {
 
 TEST_CASE("the verdict on a beam that a moment rolls up is the same in all units of length") {
   // A moment about an axis fixed in space has no potential if its node turns in space (H. Ziegler, Principles of
-  // Structural Stability, 1968): nothing is counted there. In its plane it has one.
+  // Structural Stability, 1968), so that negative directions are not counted there. In a plane it has a potential.
   const auto rolled = [](double S, double phi, const std::string& fixed) {
     return run(fmt::format("nodes: {{a: {{fixed: true}}, b: {{position: [{0:.17g}, 0, 0], fixed: {2}}}}}\n"
                            "elements: {{w: {{type: beam, nodes: [a, b], elements: 16, section: {{EA: 1e6, GAy: 1e6, "

@@ -98,7 +98,7 @@ double load_at(double v, int elements) {
 TEST_CASE("a toggle past its limit loads is that of the rod, by shooting") {
   const std::vector<double> heights = {0.03, 0.1, 0.2, 0.3, 0.37};
   const std::vector<double> exact = reference(heights);
-  // It snaps: the load has a maximum before and falls below it after.
+  // The toggle snaps through: the load has a maximum before and falls below it after.
   CHECK(*std::max_element(exact.begin(), exact.end() - 1) >
         1.2 * *std::min_element(exact.begin() + 1, exact.end() - 1));
   const double size = std::abs(exact[1]);

@@ -19,7 +19,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// EI = L = 1, hardly any shear and stretch.
+/// EI = L = 1; shear and stretch are negligible.
 StaticsReport twisted(int elements, double moment, double tension, double GJ) {
   const MechanismFile file = read_mechanism_text(
       fmt::format(
@@ -76,7 +76,8 @@ TEST_CASE("a twisted shaft hockles at Greenhill's moment, under tension, without
         errors.push_back(report.log.critical[0].factor / each.exact - 1);
       }
       CAPTURE(errors);
-      // Elements of constant strain: of the second order, the rest after extrapolation of the fourth.
+      // The elements have constant strain: their error is of second order; the error after extrapolation is of fourth
+      // order.
       CHECK(std::abs(errors[2]) < 0.3 * std::abs(errors[1]));
       CHECK(std::abs(errors[1]) < 0.3 * std::abs(errors[0]));
       CHECK(std::abs(errors[2] - (errors[1] - errors[2]) / 3) < 1e-3);
@@ -84,8 +85,9 @@ TEST_CASE("a twisted shaft hockles at Greenhill's moment, under tension, without
 }
 
 TEST_CASE("the branch of a shaft that is turned at its end: two motions at once, and as the root of what is too much") {
-  // Turned by its end it hockles at Greenhill's moment, at the angle M L/GJ; stiff in torsion it stays on the helix.
-  // The direction of the deflection is arbitrary: nothing resists a motion along the circle of such helices.
+  // If its end is turned, the shaft hockles at Greenhill's moment, at the angle M L/GJ; if it is stiff in torsion, it
+  // stays on the helix. The direction of the deflection is arbitrary, because nothing resists a motion along the circle
+  // of these helices.
   struct Turned {
     StaticsReport report;
     double deflection;
@@ -126,6 +128,6 @@ TEST_CASE("the branch of a shaft that is turned at its end: two motions at once,
 }
 
 TEST_CASE("the closed form has Euler's load of a clamped column for its limit without a moment") {
-  // 4 pi^2 EI/L^2 of a column whose end does not move sideways.
+  // The buckling load is 4 pi^2 EI/L^2 if the ends of the column do not move sideways.
   CHECK(critical_factor(1e-4, -100) * 100 == Approx(4 * std::pow(M_PI, 2)).epsilon(1e-6));
 }

@@ -28,7 +28,8 @@ std::string ball_on_ground(const std::string& node, const std::string& plane, co
 using namespace test_belts;
 
 TEST_CASE("a conveyor belt takes a block along with the force of friction, and puts in the energy") {
-  // While it slips, the friction's impulse is mu times that of the normal force, m (g t + v_z), however it sinks in.
+  // While it slips, the impulse of friction is mu times that of the normal force, m (g t + v_z), regardless of the
+  // depth.
   for (const bool reversed : {false, true}) {
     const std::string belt = "{node: ground, plane: [0, 0, 1], velocity: [0.5, 0, 0]}",
                       block = "{node: block, box: [0.4, 0.3, 0.2]}";

@@ -21,8 +21,8 @@ const std::string bristles =
     "friction: {model: lugre, coefficient: 0.4, static: 0.5, stribeck_velocity: 0.1, bristle_stiffness: 2e3, "
     "bristle_damping: 10}";
 
-/// A groove along y, z = |x|, of 2 x 2 x 5 triangles, in some order. Its walls are narrow, so that triangles of both
-/// are searched side by side. @returns its path
+/// A groove along y, z = |x|, consists of 2 x 2 x 5 triangles in some order. Its walls are so narrow that the search
+/// finds triangles of both walls together. @returns its path
 std::string write_groove(const char* name, unsigned seed) {
   struct Facet {
     Vector3 a, b, c;
@@ -103,7 +103,7 @@ TEST_CASE("a ball that spins where it slides does not notice which shape is name
     return (one.first - other.first).norm() + 0.1 * (one.second - other.second).norm();
   };
   CHECK(apart(", fixed: [rx, ry]", 1e-3) < 1e-9);
-  // If it also rolls, the results agree to second order in its turns in each step.
+  // If it also rolls, the results agree to second order in the rotation of a step.
   const double coarse = apart("", 1e-3), fine = apart("", 5e-4);
   CAPTURE(coarse, fine);
   CHECK(coarse < 1e-3);
@@ -118,7 +118,7 @@ TEST_CASE("static analyses forget bristles of what has parted, and keep the othe
   Environment environment = model.environment();
   State state = model.system.start(0);
   model.system.accept(state, environment);
-  constexpr Eigen::Index count = 7 + 2 * 12;  // behind time and middles of the shapes, and the nodes
+  constexpr Eigen::Index count = 7 + 2 * 12;  // after the time, the middles of the shapes, and the nodes
   REQUIRE(state.memory[count] == 1);
   state.memory.segment<3>(count + 3) = Vector3(1e-5, 2e-5, 0);
   environment.statics = true;

@@ -20,7 +20,7 @@ const std::string bristles = "friction: {model: lugre, coefficient: 0.5, bristle
 }  // namespace
 
 TEST_CASE("a block on an incline yields by the bristles and then stays for 1000 s") {
-  // tan(slope) = 0.3 of 0.5; Coulomb's law, made smooth, would have crept 0.7 m.
+  // tan(slope) is 0.3 and the coefficient 0.5; with regularised Coulomb friction the body would have crept by 0.7 m.
   const double slope = std::atan(0.3);
   const std::string text = contact_model(
       {{"block",
@@ -36,9 +36,9 @@ TEST_CASE("a block on an incline yields by the bristles and then stays for 1000 
   };
   Vector3 bent = Vector3::Zero(), settled = Vector3::Zero(), end = Vector3::Zero();
   run_contact(text, {2e-4, 2}, [&](const Session& session, const Motion&) { bent = foot(session); });
-  // Bristles bend from 0 to 3e-5 m over a distance of at least -(mu/sigma_0) ln(1 - 0.3/0.5): zdot = v (1 - z
-  // sigma_0/mu) as long as the motion does not reverse. The block rocks as friction begins, and moves a few times as
-  // far before it is at rest.
+  // Bristles bend from 0 to 3e-5 m over a distance of at least -(mu/sigma_0) ln(1 - 0.3/0.5), because zdot = v (1 - z
+  // sigma_0/mu) as long as the motion does not reverse. The block rocks as friction begins, and moves several times
+  // this distance before it is at rest.
   const double least = -5e-5 * std::log(0.4);
   CHECK(bent.x() > 0.99 * least);
   CHECK(bent.x() < 4 * least);
@@ -46,12 +46,13 @@ TEST_CASE("a block on an incline yields by the bristles and then stays for 1000 
     end = foot(session);
     if (session.time() < 100) settled = end;
   });
-  // Positions are accurate to some 1e-14 m in each of 45 000 steps; bristles drift if the body that they hold vibrates.
+  // Positions are accurate to about 1e-14 m in each of 45 000 steps; bristles drift if the body that they hold
+  // vibrates.
   CHECK((end - settled).norm() < 1e-9);
 }
 
 TEST_CASE("what slides, stops and sticks follows the law's differential equation") {
-  // A ball that does not turn is pressed to a plane that leans, and thrown up along it.
+  // A ball that does not turn is pressed against an inclined plane and thrown up along it.
   const double k = 1e6, v_0 = 0.3, along = -0.2 * g, down = g;
   const std::string law =
       "friction: {model: lugre, coefficient: 0.3, static: 0.45, stribeck_velocity: 0.05, viscous: "
@@ -83,16 +84,16 @@ TEST_CASE("what slides, stops and sticks follows the law's differential equation
       errors[fine] = std::max(errors[fine], std::abs(session.node("ball").v.x() - y[1]));
       CHECK(std::abs(motion.balance()) < 1e-3);
     });
-    CHECK(std::abs(y[1]) < 1e-3);  // it has come to rest: 0.2 g are held
+    CHECK(std::abs(y[1]) < 1e-3);  // it is at rest: a force of 0.2 g is held
   }
   CAPTURE(errors[0], errors[1]);
   CHECK(errors[1] < 2e-3 * v_0);
-  CHECK(errors[0] / errors[1] > 1.8);  // the implicit Euler method, of first order
+  CHECK(errors[0] / errors[1] > 1.8);  // the implicit Euler method is of first order
 }
 
 TEST_CASE("what sticks to a part that turns stays where it is on that part") {
-  // A drum of 0.5 m turns at 20 rad/s without weight; a ball lies on its inner wall, 0.1 m beside the foot of the
-  // perpendicular: a fifth of the pull outwards acts along the wall.
+  // A drum of 0.5 m turns at 20 rad/s without gravity. A ball lies on its inner wall, 0.1 m beside the foot of the
+  // perpendicular, so that a fifth of the centrifugal force acts along the wall.
   for (const bool wall_first : {true, false}) {
     CAPTURE(wall_first);
     const double w = 20, R = 0.5, r = 0.05, k = 1e7;
@@ -115,7 +116,7 @@ TEST_CASE("what sticks to a part that turns stays where it is on that part") {
       end = drum.R.transpose() * (session.node("ball").x - drum.x);
       if (session.time() < 2) settled = end;
     });
-    // 57 turns; the ball yields by some 0.2/1e4 m.
+    // The drum makes 57 turns; the ball yields by about 0.2/1e4 m.
     CHECK(std::abs(end.y() - 0.09) < 1e-4);
     CHECK((end - settled).norm() < 1e-8);
   }
@@ -138,7 +139,7 @@ joints:
     dense.move(state, 0.05 * random.vector(dense.size()));
     dense.move_rates(state, random.vector(dense.size()));
     state.time = 0.3;
-    // Bristles of all corners of both, up to five times as deep as they can get by sliding.
+    // All corners of both bodies have bristles, with deflections up to five times the largest that sliding causes.
     state.memory[0] = 0.1;
     Eigen::Index begin = 7;
     for (const NodeState& node : dense.start().nodes) {
@@ -176,7 +177,7 @@ joints:
 }
 
 TEST_CASE("bristles are zero again where shapes have parted") {
-  // A ball that is pressed in slides, is thrown off, and comes down: it begins with no friction.
+  // A ball that is pressed in slides, is thrown off and comes down: its friction begins with undeflected bristles.
   const std::string text = contact_model(
       {{"ball", "position: [0, 0, 0.096], velocity: [1, 0, 0], fixed: [rx, ry, rz]"}},
       "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], stiffness: 1e6, " +
@@ -194,6 +195,6 @@ TEST_CASE("bristles are zero again where shapes have parted") {
     }
   });
   CHECK(again);
-  // A step of 1e-4 s at some 1 m/s: z = 1e-4 m, of 5e-3 where it slides.
+  // In a step of 1e-4 s at about 1 m/s, z changes by 1e-4 m; the largest deflection in sliding is 5e-3 m.
   CHECK(ratio <= 1.01e-2);
 }

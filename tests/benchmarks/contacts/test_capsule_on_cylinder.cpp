@@ -1,5 +1,6 @@
-// A capsule against a cylinder: distances against a search over all places of the capsule's line, forces that stay
-// continuous from the side over the rim to the end, rest at the depth of the closed form, and no generation of energy.
+// A capsule against a cylinder: distances against a search over all places of the capsule's line, forces that are
+// continuous on the path from the side over the rim to the end, the depth at rest in closed form, and no generation of
+// energy.
 #include <algorithm>
 #include <cmath>
 
@@ -100,13 +101,13 @@ TEST_CASE("forces of a capsule on a cylinder stay continuous over side, rim and 
   law.exponent = 1.5;
   const PlacedShape<double> one = placed(a, Vector3::Zero(), Matrix3::Identity());
   PairTouches<double> found;
-  // Tilted lines, led over the rim 1 cm deep in the skins.
+  // Tilted lines move over the rim, 1 cm deep in the skins.
   for (const double tilt : {0.0, 1e-3, 0.02, 0.3, 1.0}) {
     CAPTURE(tilt);
     const Matrix3 A = exp_so3(Vector3(0.5 * M_PI - tilt, 0, 0.2));
     bool known = true;
     const auto force_at = [&](double s) {
-      // Along the side upwards, around the rim, along the end inwards.
+      // The path leads along the side upwards, around the rim, and along the end inwards.
       const double z = std::min(half - rounding, -0.2 + s), x = R - rounding - std::max(0.0, s - 0.75);
       const double around = std::clamp((s - 0.55) / 0.2, 0.0, 1.0) * 0.5 * M_PI;
       const Vector3 n(std::cos(around), 0, std::sin(around));
@@ -152,7 +153,8 @@ TEST_CASE("a rod that lies across an end of a cylinder is borne by it, level or 
     CAPTURE(tilt);
     find_touches(one, placed(b, Vector3(0, 0, half + r - deep), exp_so3(Vector3(0.5 * M_PI + tilt, 0, 0))), law, found);
     REQUIRE(found.touches.size() == 1);
-    // On the middle of the dome, from where it moves along with the tilt: R/H of it, R the core's radius, H = R/100.
+    // The contact is in the middle of the dome. From there it moves with the tilt by R/H of it, R the core's radius, H
+    // = R/100.
     CHECK(found.touches[0].force == Approx(1e6 * std::pow(deep, 1.5)).epsilon(0.1));
     CHECK(std::abs(found.touches[0].place.y) ==
           Approx(100 * std::abs(tilt) * (R - rounding)).epsilon(0.02).margin(1e-9));
@@ -160,7 +162,7 @@ TEST_CASE("a rod that lies across an end of a cylinder is borne by it, level or 
 }
 
 TEST_CASE("a rod across a lying cylinder rests at the depth of its weight") {
-  // Both lie; the rod across the cylinder's side, held against tilting.
+  // Both shapes lie; the rod lies across the cylinder's side and is held against tilting.
   const double mass = 4, g = 9.81, depth = std::pow(mass * g / 1e6, 1 / 1.5);
   double x = 0;
   run_contact(text(fmt::format("position: [{:.17g}, 0, 0.1], rotation_vector: [{:.17g}, 0, 0], fixed: [rx, ry, rz]",

@@ -25,10 +25,10 @@ double depth(double weight, int n) { return std::pow(weight / (n * k), 1 / 1.5);
 
 TEST_CASE("a cylinder rolls down a ramp of a box, or slides on it, as closed forms say") {
   constexpr double slope = 0.3, R = 0.1, m = 2, J = 0.5 * m * R * R;
-  // Gravity leans instead of the ramp: x is down the slope. It begins at its depth of rest.
+  // Gravity is inclined instead of the ramp: x points down the slope. The body begins at its depth of rest.
   const std::string gravity = fmt::format("[{:.17g}, 0, {:.17g}]", g * std::sin(slope), -g * std::cos(slope));
   const double rest = depth(m * g * std::cos(slope), 2);
-  // It rolls on places halfway between the surfaces.
+  // The body rolls on places halfway between the surfaces.
   const double lever = R - 0.5 * rest, rolling = g * std::sin(slope) / (1 + J / (m * lever * lever)),
                sliding = g * (std::sin(slope) - 0.05 * std::cos(slope));
   for (const bool rolls : {true, false}) {
@@ -52,14 +52,14 @@ TEST_CASE("a cylinder rolls down a ramp of a box, or slides on it, as closed for
     const double a = rolls ? rolling : sliding;
     CHECK(v == Approx(a).epsilon(2e-4));
     CHECK(x == Approx(0.5 * a).epsilon(2e-4));
-    // Rolling: the friction makes it turn without slip. Sliding: J spin' = mu N lever.
+    // If it rolls, friction makes it turn without slip. If it slides, J spin' = mu N lever.
     CHECK(std::abs(spin) == Approx(rolls ? a / lever : 0.05 * m * g * std::cos(slope) * lever / J).epsilon(1e-2));
   }
 }
 
 TEST_CASE("cylinders stand on a box and on each other at the depths of their weights") {
-  // Damped: they come to rest. Each standing end is one place on a box; between two cylinders there are the places of
-  // both ends.
+  // Damping brings the bodies to rest. Each standing end has one place on a box; between two cylinders there are the
+  // places of both ends.
   const double m = 1.5;
   const std::string text = contact_model(
       {{"low", "position: [0, 0, 0.1]", m, {0.01, 0.01, 0.01}},
@@ -93,7 +93,7 @@ TEST_CASE("crossed rods touch in one place, parallel ones at both ends of the sh
   CHECK(found.touches[0].force == Approx(whole).epsilon(1e-12));
   CHECK((value_of(found.touches[0].normal) - Vector3::UnitX()).norm() < 1e-12);
   CHECK((value_of(found.touches[0].place) - Vector3(0.1 - 0.5 * p, 0, 0)).norm() < 1e-12);
-  // Side by side: at either end of the shorter one, as far out as its domes are.
+  // Side by side, they touch at either end of the shorter one, at the radius of its domes.
   find_touches(placed_at(a, Vector3::Zero()), placed_at(b, over), law, found);
   REQUIRE(found.touches.size() == 2);
   for (const auto& touch : found.touches) {

@@ -1,4 +1,5 @@
-// Shapes that are deep within each other: no force is correct there, so that the run ends and names the place.
+// Shapes that have penetrated each other deeply: no force is correct there, so that the run ends with the name of the
+// place.
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -50,7 +51,7 @@ void write_cube(const std::string& path) {
 }  // namespace
 
 TEST_CASE("a capsule that is drawn through a box is found, although neither its ends nor corners are inside") {
-  // The shortest way out is along x: half the box and the capsule's radius.
+  // The shortest way out is along x: half of the box plus the capsule's radius.
   for (const char* turn : {"", ", rotation_vector: [0, 0, 0.7]"}) {
     CAPTURE(turn);
     const std::string says =
@@ -67,8 +68,8 @@ TEST_CASE("boxes that cross each other are found, although no corner of either i
 
 TEST_CASE(
     "a box that is pushed through a capsule step by step ends the run where its core reaches the capsule's line") {
-  // Its lower edges, rounded by 0.01, come down at 0.1 m/s from 0.0205 above the capsule of 0.05: the first step beyond
-  // 0.0205 + 0.06 m.
+  // The lower edges, rounded by 0.01, come down at 0.1 m/s from 0.0205 above the capsule of 0.05. The first step that
+  // exceeds 0.0205 + 0.06 m ends the run.
   const std::string says =
       end_of("position: [0, 0, 0.1705], motion: {z: '-0.1*t'}", "box: [1, 0.2, 0.2], rounding: 0.01",
              "capsule: [0.05, 1], axes: {x: [1, 0, 0], y: [0, 0, 1]}");
@@ -99,10 +100,10 @@ TEST_CASE("a ball within a closed surface is found, however far from its faces")
   const TemporaryFolder folder;
   write_cube(folder.path() + "/cube.stl");
   const std::string cube = "surface: " + folder.path() + "/cube.stl";
-  // 0.3 from the nearest face, at x = -0.5, and a radius of 0.1.
+  // The place is 0.3 from the nearest face, at x = -0.5, and the radius is 0.1.
   CHECK_THAT(end_of("position: [-0.2, 0.1, -0.1]", "sphere: 0.1", cube),
              Contains("surface on 'ground' and sphere on 'b' press 0.4 m into each other"));
-  // Outside, near a corner and far off.
+  // The places are outside, near a corner and far away.
   for (const double along : {0.55, 1.0, 40.0}) {
     CAPTURE(along);
     const std::string text = contact_model(
@@ -141,7 +142,7 @@ TEST_CASE("what has gone through a plane with its middle ends the run, whatever 
 }
 
 TEST_CASE("a ball on a floor that is far too soft ends where its middle meets the floor") {
-  // Falls from 0.01 m above the floor, which hardly pushes: 0.11 m in 0.1498 s.
+  // The shape falls from 0.01 m above the floor, whose force is small: 0.11 m in 0.1498 s.
   const std::string text = contact_model(
       {{"b", "position: [0, 0, 0.11]"}},
       "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: b, sphere: 0.1}], stiffness: 1}\n",

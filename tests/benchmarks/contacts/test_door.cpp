@@ -13,7 +13,8 @@ using namespace bielle::test;
 namespace test_door {
 namespace {
 
-// The leaf, along x from the hinge when closed; the ball; the stop of the hinge; friction of the hinge and of the ball.
+// The parts are the leaf, along x from the hinge when closed; the ball; the stop of the hinge; friction of the hinge
+// and of the ball.
 constexpr double m = 12, width = 0.8, half_thickness = 0.02, J = m * (0.8 * 0.8 + 0.04 * 0.04) / 12;
 constexpr double ball_x = -0.1, ball_y = 0.7, ball = 0.03, k = 1e6, d = 0.3;
 constexpr double stop_at = 1.5, stop_k = 2e4, stop_d = 60;
@@ -78,7 +79,7 @@ double error_of(bool on_ball, double h) {
                       m,
                       {4.0016, 4.64, J}}},
                     hinge + contact, fmt::format("[0, 0, {}]", -g));
-  // The damper of the hinge's stop acts at once: the equation's short steps pass over the jump.
+  // The damper of the hinge's stop acts at once: the short steps of the equation integrate over the jump.
   Two z(0, spin);
   double time = 0, worst = 0, deepest = 0, balance = 0;
   run_contact(text, {h, 1.6, 0, 0.9}, [&](const Session& session, const Motion& motion) {

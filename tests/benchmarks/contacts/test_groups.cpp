@@ -1,4 +1,4 @@
-// Groups of many shapes: pairs that are far from each other change nothing.
+// Groups of many shapes: pairs that are far from each other do not change the result.
 #include <algorithm>
 #include <cmath>
 
@@ -75,7 +75,7 @@ TEST_CASE("a heap that is restored goes on as it did, to the last bit") {
 }
 
 TEST_CASE("the error in the energy balance of a heap with a restitution falls with the square of the steps") {
-  // There are some 120 impacts of 8 ms. Friction and the damping of the impacts dissipate 9 of 10 J.
+  // There are about 120 impacts of 8 ms. Friction and the damping of the impacts dissipate 9 of 10 J.
   BallsOnFloor balls;
   balls.along = 6;
   balls.heap = true;
@@ -95,7 +95,7 @@ TEST_CASE("the error in the energy balance of a heap with a restitution falls wi
     }
     CHECK(motion.log().crossings > 50);
     CHECK(dissipated > 5);
-    CHECK(taken_back < 1e-12 * dissipated);  // damping and friction never give
+    CHECK(taken_back < 1e-12 * dissipated);  // damping and friction never supply energy
     missing[k] = std::abs(motion.balance());
   }
   CHECK(missing[0] < 0.01 * 10);

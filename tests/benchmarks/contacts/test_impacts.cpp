@@ -1,5 +1,5 @@
 // Impacts: restitution against the closed form of Hunt and Crossley's law, Newton's cradle against its differential
-// equation, momentum, and steps that shorten for impacts and let nothing pass.
+// equation, momentum, and steps that become short at impacts and miss none.
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +52,7 @@ using Line = Eigen::Matrix<double, 10, 1>;
 }  // namespace
 
 TEST_CASE("a bouncing ball has the restitution of its damping over three decades of speed") {
-  // Errors of second order of 600 steps per impact.
+  // The errors are of second order with 600 steps per impact.
   for (const double speed : {0.01, 0.1, 1.0, 10.0})
     for (const double damping : {0.05, 0.5, 5.0}) {
       CAPTURE(speed, damping);
@@ -83,7 +83,7 @@ TEST_CASE("Newton's cradle of five balls moves as its differential equation") {
     std::vector<Body> bodies;
     std::string shapes;
     for (int k = 0; k < 5; ++k) {
-      // The first comes at 1 m/s; the others stand 1 micrometre apart.
+      // The first ball arrives at 1 m/s; the others are 1 micrometre apart.
       const double x = k == 0 ? -1e-3 : 0.1 * k + 1e-6 * k;
       bodies.push_back({fmt::format("b{}", k),
                         fmt::format("position: [{:.17g}, 0, 0], velocity: [{}, 0, 0], fixed: [y, z, rx, ry, rz]", x,
@@ -118,7 +118,7 @@ TEST_CASE("Newton's cradle of five balls moves as its differential equation") {
       for (int k = 0; k < 5; ++k)
         largest = std::max(largest, std::abs(session.node(fmt::format("b{}", k)).v.x() - z[5 + k]));
     });
-    CHECK(largest < 2e-4);  // relative to 1 m/s; an impact takes some 100 steps
+    CHECK(largest < 2e-4);  // relative to 1 m/s; an impact takes about 100 steps
     CHECK(z[9] > 0.8);      // the last ball has flown off
   }
 }
@@ -157,7 +157,7 @@ TEST_CASE("momentum and angular momentum of what collides freely stay what they 
   });
   CHECK(touched);
   CHECK(least < 5);
-  // Linear momentum to rounding; angular momentum to the error of the scheme at rates of some 10 rad/s.
+  // Linear momentum is exact to rounding, angular momentum to the error of the scheme at rates of about 10 rad/s.
   CHECK(worst < 2e-6);
 }
 
@@ -187,8 +187,8 @@ TEST_CASE("adaptive steps shorten for an impact and lengthen after it, and the e
 }
 
 TEST_CASE("nothing passes through a thin plate within one step") {
-  // A ball of 2 cm, 50 m/s: 50 cm in a step of 0.01 s, against a plate of 1 mm. The result must not depend on where
-  // steps end: before it, in it, behind it.
+  // A ball of 2 cm moves at 50 m/s, 50 cm in a step of 0.01 s, against a plate of 1 mm. The result must not depend on
+  // whether steps end before, in or behind the plate.
   for (const double start : {0.3, 0.21, 0.203, 0.2, 0.185, 0.05})
     for (const char* plate : {"box: [1, 1, 0.001]", "box: [1, 1, 0.001], rotation_vector: [0.3, 0, 0]"})
       for (const double tolerance : {0.0, 1e-6}) {

@@ -38,7 +38,7 @@ TEST_CASE("a ball rests where gravity is balanced: depth (m g/k)^(1/n)") {
 }
 
 TEST_CASE("a wedge between two planes presses on each with its share of the weight") {
-  // A cube stands on an edge in a groove of planes at 30 and 60 degrees: m g cos(30), m g cos(60).
+  // A cube stands on an edge in a groove of planes at 30 and 60 degrees: the forces are m g cos(30) and m g cos(60).
   rest(contact_model({{"cube",
                        "position: [-0.03656, 0, 0.13649], rotation_vector: [0, 'pi/6', 0], fixed: [y, rx, rz]",
                        5,
@@ -53,7 +53,7 @@ TEST_CASE("a wedge between two planes presses on each with its share of the weig
            const std::vector<double> f = session.read(fmt::format("contacts/{}/force", name));
            return std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
          };
-         // The corners press in by 1e-4 of the edge; the cube turns by less.
+         // The corners penetrate by 1e-4 of the edge; the cube turns by less.
          CHECK_THAT(norm("low"), Catch::WithinRel(5 * g * std::cos(M_PI / 6), 1e-4));
          CHECK_THAT(norm("steep"), Catch::WithinRel(5 * g * std::cos(M_PI / 3), 1e-4));
        });
@@ -130,8 +130,7 @@ TEST_CASE("a box rests on a box that is turned, a capsule across a box") {
     roll = session.node("roll").x.z();
     moved = (session.node("high").x - Vector3(0.01, 0.02, session.node("high").x.z())).norm();
   });
-  // Corners of a box bear on faces, crossings of edges bear the capsule; loads that are not in the middle tilt by some
-  // 1e-4 rad.
+  // Corners of a box rest on faces, crossings of edges carry the capsule; eccentric loads tilt them by about 1e-4 rad.
   const auto depth = [](double weight, double points) { return std::pow(weight * g / points / 1e6, 1 / 1.5); };
   const double expected = 0.15 - depth(4, 4) - depth(2, 4);
   CHECK_THAT(z, Catch::WithinAbs(expected, 2e-5));
@@ -216,7 +215,7 @@ TEST_CASE("what a contact tells formulas is what it records") {
     const auto size = [&](std::size_t k) { return Vector3(force[k], force[k + 1], force[k + 2]).norm(); };
     CHECK_THAT(measure("all"), Catch::WithinRel(size(0) + size(3), 1e-12));
   });
-  // In a group whose shapes are first and second in turn no sum has a meaning.
+  // In a group, the shapes are first and second in different pairs, so that a sum over first shapes has no meaning.
   const auto read = [](const char* measure) {
     return fmt::format(
         "nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}, c: {{position: [2, 0, 0]}}}}\njoints: {{it: {{type: contact, "
@@ -244,11 +243,12 @@ TEST_CASE("what nothing holds is let go until a contact holds it, and statics sa
     says_open(compute_statics(session).log.fell);
     return session.node("ball").x[2];
   };
-  // Into the plane by (m g/k)^(2/3); down to the plane, and from the middle of the socket to the end of its gap.
+  // The displacement is (m g/k)^(2/3) into the plane, the distance down to the plane, and that from the middle of the
+  // socket to the end of its gap.
   const double depth = std::pow(2 * g / 1e5, 2.0 / 3);
   CHECK_THAT(height(plane), Catch::WithinAbs(0.1 - depth, 1e-12));
   CHECK_THAT(height(socket), Catch::WithinAbs(0.13 - 0.03 - depth, 1e-12));
-  // Nothing is above the plane.
+  // No shape is above the plane.
   const std::string message =
       message_of<std::runtime_error>([&] { rest(contact_model(ball, plane, "[0, 0, 9.81]"), [](const Session&) {}); });
   says_open(message);
@@ -256,7 +256,7 @@ TEST_CASE("what nothing holds is let go until a contact holds it, and statics sa
 }
 
 TEST_CASE("in a group a static analysis names the shapes that touch nothing") {
-  // One stands on a ball of ground, the other falls past it.
+  // One ball stands on a ball of ground, the other falls past it.
   const std::string text =
       contact_model({{"low", "position: [0, 0, 0.099], fixed: [x, y, rx, ry, rz]"},
                      {"high", "position: [3, 0, 0.3], fixed: [x, y, rx, ry, rz]"}},

@@ -40,7 +40,7 @@ double acceleration_of_ball(double angle, double friction) {
 }  // namespace
 
 TEST_CASE("a ball rolls down an incline with 5/7 of gravity's pull, or slips") {
-  // m = 1, J = 0.4 m r^2 = 0.004. The force acts half the depth (2e-6 of the radius) within the surface.
+  // m = 1, J = 0.4 m r^2 = 0.004. The force acts at half the depth (2e-6 of the radius) below the surface.
   const double angle = 0.3;
   CHECK_THAT(acceleration_of_ball(angle, 0.3), Catch::WithinRel(5. / 7 * g * std::sin(angle), 1e-4));
   CHECK_THAT(acceleration_of_ball(angle, 0.05), Catch::WithinRel(g * (std::sin(angle) - 0.05 * std::cos(angle)), 1e-4));
@@ -70,7 +70,7 @@ TEST_CASE("a block creeps below the friction angle, as documented, and slides ab
 
 TEST_CASE("a floor of triangles is a plane: a ball falls, bounces, rolls across the edges between them") {
   const TemporaryFolder folder;
-  // A square of 2 m in 8 x 8 cells of two triangles, binary, in millimetres.
+  // The file has a square of 2 m in 8 x 8 cells of two triangles, in binary form and in millimetres.
   {
     std::ofstream file(folder.path() + "/floor.stl", std::ios::binary);
     const std::string header(80, ' ');

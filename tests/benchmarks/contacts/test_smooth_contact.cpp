@@ -10,7 +10,7 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 
 TEST_CASE("steps are of second order on a contact that stays closed") {
-  // A ball on Hertz's spring, 20 % from equilibrium.
+  // A ball on Hertz's spring starts 20 % away from equilibrium.
   const double rest = std::pow(9.81 / 1e4, 1 / 1.5), T = 2 * M_PI / std::sqrt(1.5 * 9.81 / rest);
   const auto rate = [](const Eigen::Vector2d& z) -> Eigen::Vector2d {
     const double p = 0.1 - z[0];

@@ -90,7 +90,7 @@ TEST_CASE("a capsule on a ball of triangles is as near as on the ball, as these 
     const ContactShape ball = surface_shape(ball_of_triangles(0.3, levels));
     double worst = 0;
     for (int way = 0; way < 40; ++way) {
-      // Around the ball, its line along a tangent.
+      // The capsules are placed around the ball, with their line along a tangent.
       const Matrix3 A = exp_so3(Vector3(0.37 * way, 0.2 + 0.61 * way, -0.43 * way));
       const double gap = 0.3 + 0.05 + 1e-3;
       const Touch<double> found =
@@ -111,7 +111,7 @@ TEST_CASE("a body of triangles stands on a plane as its box does, wherever the p
   const NodeState end =
       end_on("plane: [0, 0, 1]", node, brick, "stiffness: 1e5, damping: 4, friction: {coefficient: 0.5}", 3);
   CHECK(end.x.z() == Approx(0.1 - std::pow(2 * g / 4e5, 1 / 1.5)).margin(2e-6));
-  // A plane that moves carries it up.
+  // A moving plane carries the body up.
   const std::string text = contact_model({{"b", "position: [0, 0, 0.1]", 2, {0.03, 0.04, 0.02}}},
                                          "  it: {type: contact, shapes: [{node: lift, plane: [0, 0, 1]}, {node: b, " +
                                              brick + "}], stiffness: 1e6, damping: 1}\n",
@@ -159,7 +159,8 @@ TEST_CASE("what is drawn through a surface, or within it, is told with its names
     }
     return "went on";
   };
-  // The ends are outside, the line goes through; a block on the top's middle, with no corner in it.
+  // The ends are outside and the line passes through; a block without a corner in the contact lies on the middle of the
+  // top.
   CHECK_THAT(says("capsule: [0.05, 3]", "position: [0, 0, 0]"),
              Contains("surface on 'ground' and capsule on 'b' press"));
   CHECK_THAT(says("cylinder: [0.05, 3]", "position: [0, 0, 0]"),
@@ -170,7 +171,7 @@ TEST_CASE("what is drawn through a surface, or within it, is told with its names
 }
 
 TEST_CASE("what falls on a floor of triangles in adaptive steps meets it as it meets a plane") {
-  // In free flight the length of steps is not limited: some would end deep within the floor, where there is no contact
+  // In free flight the length of steps is not limited: some would end deep below the floor, where there is no contact
   // force.
   const TemporaryFolder folder;
   write_triangles(folder.path() + "/floor.stl", floor_of_triangles(2, 6));

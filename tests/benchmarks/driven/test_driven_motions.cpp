@@ -77,7 +77,7 @@ TEST_CASE("a closed loop of spherical and universal joints waits, moves and wait
   Session session(file.model);
   const KinematicsReport report = compute_kinematics(session, {.duration = 0.6, .step = 2e-3});
   CHECK(report.points == 301);
-  CHECK(std::abs(report.balance) < 1e-6);  // no gravity: what goes in comes out where it rests again
+  CHECK(std::abs(report.balance) < 1e-6);  // no gravity: the energy supplied is returned where the machine rests again
 }
 
 TEST_CASE("kinematics names the motions that are not driven, by their joints") {
@@ -139,7 +139,7 @@ TEST_CASE("kinematics lists events where they happen") {
     CHECK(events[0].second == Approx(time_of(0.7)).margin(2e-9 * step));
     CHECK(events[1].second == Approx(time_of(back)).margin(2e-9 * step));
     CHECK(events[1].first == "event 'back'");
-    // The arm would come back to x = -0.2 m at 2 pi - back = 4.30 rad, after the end.
+    // The arm would return to x = -0.2 m at 2 pi - back = 4.30 rad, after the end of the motion.
     CHECK(events.back().first == "event 'end'");
     CHECK(session.time() == Approx(time_of(4)).margin(2e-9 * step));
     CHECK(report.stopped_by_event);
@@ -148,7 +148,7 @@ TEST_CASE("kinematics lists events where they happen") {
 }
 
 TEST_CASE("a flat follower lifts off where its force vanishes, in inverse dynamics as in dynamics") {
-  // An eccentric circle, its middle opposite to the follower at first: N = m (g - e w^2 cos(pi + w t)).
+  // The cam is an eccentric circle, whose middle is opposite to the follower at first: N = m (g - e w^2 cos(pi + w t)).
   constexpr double R = 0.04, e = 0.01, w = 50;
   const bielle::test::TemporaryFolder folder;
   {
@@ -178,7 +178,7 @@ TEST_CASE("a flat follower lifts off where its force vanishes, in inverse dynami
   REQUIRE(events.size() == 2);  // 1.6 turns
   for (std::size_t k = 0; k < 2; ++k) {
     CHECK(events[k].name == "joint 'cam': lifts off");
-    // The spline's curvature is right to 6e-6.
+    // The spline's curvature is accurate to 6e-6.
     CHECK(events[k].time ==
           Approx((M_PI - std::acos(g / (e * w * w)) + 2 * M_PI * static_cast<double>(k)) / w).margin(2e-7));
   }

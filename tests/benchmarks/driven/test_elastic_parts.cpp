@@ -19,7 +19,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A steel strip of 1 m, driven about z at its root.
+/// The steel strip of 1 m is driven about z at its root.
 constexpr double length = 1, width = 0.02, thickness = 0.01, young = 210e9, density = 7850;
 constexpr double per_length = density * width * thickness;
 std::string strip(const std::string& angle, double stiffer = 1) {
@@ -46,7 +46,7 @@ TEST_CASE("the strip lags behind its drive by the deflection under its own inert
   CHECK(report.elastic);
   const double EI = young * width * std::pow(thickness, 3) / 12;
   const double deflection = -11.0 / 120 * per_length * a * std::pow(length, 5) / EI;
-  // 16 elements of linear rotations: (1/16)^2/2 of the curvature's variation; shear gives (t/L)^2.
+  // 16 elements of linear rotations have an error of (1/16)^2/2 of the curvature's variation; shear adds (t/L)^2.
   CHECK(session.node("tip").x[1] == Approx(deflection).epsilon(3e-3));
   CHECK(session.read("joints/shaft/drive_force")[0] == Approx(per_length * a * std::pow(length, 3) / 3).epsilon(1e-3));
   // (w/w_1)^2 with the first natural frequency 3.516 sqrt(EI/mu L^4) is the effect of the deformation's own
@@ -96,7 +96,7 @@ TEST_CASE("a mass on a radial spring turns at the radius to which the centrifuga
       CHECK(std::abs(at.read("supports/r/reaction")[5]) < 1e-6 * m * w * w * r * r + 1e-12);
     });
     const KinematicsReport report = compute_kinematics(session, {.duration = 0.4, .step = 0.01, .elastic = true});
-    CHECK(report.left_out < 1e-4);  // it stays as it is in the turning axes
+    CHECK(report.left_out < 1e-4);  // constant in the turning axes
     CHECK(std::abs(report.balance) < 1e-9 * (1 + m * w * w * r * r));
   }
 }
@@ -142,7 +142,8 @@ TEST_CASE("the drives of a delta robot with elastic arms do the work that its en
   double missing = 0, missing_stiff = 0, exchanged = 0;
   const std::vector<double> elastic = run(1, missing, exchanged), stiff = run(1e4, missing_stiff, exchanged);
   CHECK(exchanged > 1);
-  // The trapezoidal rule leaves (h w)^2/12 or 5e-4 of the exchanged energy; elastic arms leave the neglected terms.
+  // The trapezoidal rule has an error of (h w)^2/12, or 5e-4 of the exchanged energy; with elastic arms the neglected
+  // terms are added.
   CHECK(missing_stiff < 1e-3 * exchanged);
   CHECK(missing < 2e-3 * exchanged);
   REQUIRE(elastic.size() == stiff.size());

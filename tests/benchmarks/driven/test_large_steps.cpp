@@ -28,7 +28,7 @@ std::string slider_crank(double r, double l, const std::string& angle) {
 }  // namespace
 
 TEST_CASE("a slider-crank keeps its branch however near it comes to its dead centre, whatever the step") {
-  // x = r cos a + sqrt(l^2 - r^2 sin^2 a); with r < l there is no way to the branch with the other sign.
+  // x = r cos a + sqrt(l^2 - r^2 sin^2 a); with r < l the branch with the other sign cannot be reached.
   const double l = 0.3, w = 10;
   for (const double r : {0.1, 0.29, 0.2999, 0.299999})
     for (const double step : {0.01, 0.03}) {
@@ -44,8 +44,8 @@ TEST_CASE("a slider-crank keeps its branch however near it comes to its dead cen
 }
 
 TEST_CASE("a parallelogram goes on through its change points as it was driven into them") {
-  // Links of 0.1 m, coupler and base of 0.3 m: in line at 0 and pi, where the determinant changes its sign. The rocker
-  // turns with the crank.
+  // Links of 0.1 m, coupler and base of 0.3 m: they are in line at 0 and pi, where the determinant changes its sign.
+  // The rocker turns with the crank.
   const MechanismFile file = read_mechanism_text(
       "nodes: {c: {position: [0, 0, 0], rotation_vector: [0, 0, 1]}, k: {position: [0.054030230586814, "
       "0.0841470984807897, 0]}, "

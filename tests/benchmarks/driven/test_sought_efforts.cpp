@@ -46,7 +46,7 @@ struct Arm {
         x1 / 2, y1 / 2, x2, y2, tip, m1, J1, m2, (x1 - x2) / 2, (y1 - y2) / 2, J2, x1, y1, of_elbow, rest);
   }
 
-  /// Textbook torques M(q) q'' + c(q, q') + g(q) of a tip at p with velocity v and acceleration a.
+  /// Returns the torques M(q) q'' + c(q, q') + g(q) of the textbook for a tip at p with velocity v and acceleration a.
   struct Torques {
     double shoulder, elbow;
   };
@@ -82,7 +82,7 @@ double force_of(Session& session, const std::string& joint) {
 }  // namespace
 
 TEST_CASE("the torques of a robot arm whose tip follows a straight line are those of the textbook") {
-  // The tip goes to and fro along a line: x = -A (1 - cos(w t)), y = B (1 - cos(w t)).
+  // The tip oscillates along a line: x = -A (1 - cos(w t)), y = B (1 - cos(w t)).
   const Arm arm;
   const double A = 0.15, B = 0.1, w = 5;
   const MechanismFile file = read_mechanism_text(
@@ -107,7 +107,8 @@ TEST_CASE("the torques of a robot arm whose tip follows a straight line are thos
     });
     compute_kinematics(session, {.duration = 1.3, .step = 0.01, .elastic = elastic});
     CHECK(looked == 130);
-    // The trapezoidal rule errs by (h w)^2/12 of each oscillation of the power, whose second harmonics turn with 2 w.
+    // The trapezoidal rule has an error of (h w)^2/12 of each oscillation of the power, whose second harmonics have the
+    // frequency 2 w.
     CHECK(exchanged > 0.5);
     CHECK(missing < 3e-3 * exchanged);
   }
@@ -180,7 +181,7 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
   // rule's (h w)^2/12.
   const double by_inertia = 2 * mb * A * w * w / k, kinetic = 0.5 * (ma + mb) * A * A * w * w;
   CHECK(missing < by_inertia * mb * (A * w * w + g) + std::pow(0.01 * w, 2) / 12 * kinetic);
-  // The slide driven so, in turn, takes the same force, but for x''''.
+  // A drive that moves the slide in the same way needs the same force, except for the term in x''''.
   const MechanismFile driven = read_mechanism_text(
       model("", fmt::format("displacement: \"{0}*(1 - cos({1}*t)) + {2:.17g}*({0}*{1}^2*cos({1}*t) + {3})\"", A, w,
                             mb / k, g)),
@@ -194,7 +195,8 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
 }
 
 TEST_CASE("torques about a spherical joint turn a body as its rotation vector is prescribed") {
-  // The inertia about the node is J: the torque is J dOmega/dt + Omega x J Omega, its power that of the kinetic energy.
+  // The inertia about the node is J: the torque is J dOmega/dt + Omega x J Omega, and its power is that of the kinetic
+  // energy.
   const MechanismFile file = read_mechanism_text(
       "nodes: {b: {motion: {rx: \"0.4*sin(2*t)\", ry: \"0.5*t\", rz: \"0.3*(1 - cos(3*t))\"}}}\n"
       "elements: {b: {type: rigid_body, node: b, mass: 1, inertia: [0.2, 0.3, 0.4]}}\n"
@@ -242,7 +244,7 @@ TEST_CASE("the force on a slider that turns its crank is found, but not through 
     CHECK(force_of(at, "sl") == Approx(J / slope).epsilon(1e-6));
   });
   CHECK(compute_kinematics(session, {.duration = 1.5, .step = 0.05}).points == 31);
-  // In line, the slider's force has no arm.
+  // If the links are in line, the slider's force has no arm.
   const MechanismFile in_line = read_mechanism_text(slide_crank("t", 0), "crank.yaml");
   Session refused(in_line.model);
   CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(refused, {.duration = 1, .step = 0.1}); }),
@@ -312,8 +314,7 @@ TEST_CASE("efforts that cannot be sought are refused, with the reason") {
   CHECK_THAT(refusal(arm.model(moved, sought_arm, ", locked: {to: 1}")), Contains("leaves no effort to be sought"));
   CHECK_THAT(refusal(arm.model(moved, std::string(sought_arm) + "  more: {joint: elbow, angle: 0}\n")),
              Contains("driven by 'elbow' already"));
-  // A hinge on a held part moves nothing, and a wheel that is geared to the shoulder moves nothing besides the
-  // shoulder.
+  // A hinge on a held part moves no node, and a wheel that is geared to the shoulder moves only with the shoulder.
   const auto with = [&](const std::string& node, const std::string& joints, const std::string& second) {
     std::string text = arm.model(moved, fmt::format("drives:\n  s: {{joint: shoulder, torque: sought}}\n"
                                                     "  e: {{joint: {}, torque: sought}}\n",

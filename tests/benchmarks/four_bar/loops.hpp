@@ -23,7 +23,7 @@ inline std::string bar_node(const std::string& name, const Vector3& from, const 
 }
 
 inline std::string bar_body(const std::string& name, double length) {
-  // 1 kg/m; about its own axis the bar has almost nothing.
+  // The bar has 1 kg/m, and a negligible moment of inertia about its own axis.
   const double J = length * length * length / 12;
   return fmt::format("  {}: {{type: rigid_body, node: {}, mass: {:.17g}, inertia: [{:.17g}, {:.17g}, {:.17g}]}}\n",
                      name, name, length, 1e-3 * J, J, J);
@@ -35,7 +35,7 @@ inline std::string hinge(const std::string& name, const std::string& first, cons
                      first, second, at.x(), at.y());
 }
 
-/// N loops; at the start the cranks turn with 1 rad/s clockwise, so that the couplers move along +x.
+/// There are N loops; at the start the cranks turn with 1 rad/s clockwise, so that the couplers move along +x.
 inline std::string loops(int n) {
   std::string nodes = "nodes:\n", bodies = "elements:\n", joints = "joints:\n";
   for (int k = 0; k <= n; ++k) {
@@ -74,7 +74,7 @@ inline void check_loops(int n) {
   CHECK(skew_of_loops < 1e-6);
   CHECK(drift < 1e-3 * energy);
   const Vector3 top = crank(end, 0).x + 0.5 * crank(end, 0).R.col(0);
-  // Five turns with an error of the period of order (omega h)^2/12, omega up to 7 rad/s.
+  // The motion makes five turns with an error of the period of order (omega h)^2/12, omega up to 7 rad/s.
   CHECK((top.head<2>() - top_at_10).norm() < 5e-3);
 }
 

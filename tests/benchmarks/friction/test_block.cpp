@@ -16,7 +16,7 @@ namespace {
 
 constexpr double m = 2, g = 9.81;
 
-/// Down the slope of tan(angle) = 0.2, to the right.
+/// The force acts down the slope of tan(angle) = 0.2, to the right.
 std::string block(const std::string& friction, const std::string& more = "") {
   return fmt::format(
       "gravity: [0, 0, -9.81]\n"
@@ -39,18 +39,18 @@ TEST_CASE("below the angle of friction a block sticks truly, or creeps as docume
     CHECK_THAT(read(session, "friction"), WithinRel(-pull, 1e-12));
     CHECK(read(session, "sticks") == 1);
   });
-  // Bristles: N sigma_0 z = pull; after one second they do not move for a thousand seconds.
+  // With bristles, N sigma_0 z = pull; after one second they do not move for a thousand seconds.
   double early = 0;
   move_to(block(bristles + "coefficient: 0.25"), 1e-3, 1,
           [&](const Session& session) { early = read(session, "coordinate"); });
-  // On the way there z' = v (1 - z/z_s), z_s = mu/sigma_0, at least; the damping lets it go a little farther.
+  // On the way there z' = v (1 - z/z_s), z_s = mu/sigma_0, at least; the damping lets the block move slightly farther.
   const double z = pull / (N * 2e4), z_s = 0.25 / 2e4;
   CHECK_THAT(early, WithinRel(-z_s * std::log(1 - z / z_s), 0.2));
   move_to(block(bristles + "coefficient: 0.25"), 1e-2, 1000, [&](const Session& session) {
     CHECK_THAT(read(session, "bristles"), WithinRel(z, 1e-9));
-    CHECK_THAT(read(session, "rate"), WithinAbs(0, 1e-13));  // 1e-10 m in all of that time
+    CHECK_THAT(read(session, "rate"), WithinAbs(0, 1e-13));  // 1e-10 m during the whole time
   });
-  // Regularised: v_0 atanh(pull/(mu N)).
+  // With regularised friction the speed is v_0 atanh(pull/(mu N)).
   move_to(block("coefficient: 0.25, velocity: 1e-4"), 0.01, 10, [](const Session& session) {
     CHECK_THAT(read(session, "rate"), WithinRel(1e-4 * std::atanh(0.2 / 0.25), 1e-6));
     CHECK_THAT(read(session, "friction"), WithinRel(-pull, 1e-6));
@@ -65,8 +65,8 @@ TEST_CASE("above the angle of friction a block slides by the closed form") {
     CHECK(read(session, "sticks") == 0);
     CHECK_THAT(session.balance(), WithinAbs(0, 1e-10));
   });
-  // Regularised: the force is not saturated while v < 3 v_0 or so. Bristles: they take mu/sigma_0 to bend, and their
-  // damping an impulse N sigma_1 mu/sigma_0.
+  // With regularised friction the force is not saturated while v < 3 v_0 or so. Bristles need mu/sigma_0 to bend, and
+  // their damping takes an impulse N sigma_1 mu/sigma_0.
   move_to(block("coefficient: 0.15, velocity: 1e-4"), 1e-3, 2,
           [&](const Session& session) { CHECK_THAT(read(session, "rate"), WithinAbs(2 * a, 1e-3)); });
   move_to(block(bristles + "coefficient: 0.15"), 1e-3, 2, [&](const Session& session) {
@@ -89,7 +89,7 @@ TEST_CASE("viscous friction on a slope lets a block come to its speed exponentia
 }
 
 TEST_CASE("a block that is thrown uphill comes to rest and stays, or slides back") {
-  // Up: a = -g (sin + mu cos); at rest after v/|a|.
+  // Upwards a = -g (sin + mu cos); the block is at rest after v/|a|.
   const double v = 1.5;
   const auto thrown = [&](const std::string& friction, double end, const auto& look) {
     const std::string velocity =

@@ -43,7 +43,7 @@ struct Pose {
   Signs slip() const { return {rate[0], rate[1] - rate[0], rate[2] - rate[1], rate[2]}; }
 };
 
-/// x bar_1' + y bar_2' = right, with ' a quarter of a turn.
+/// The bars satisfy x bar_1' + y bar_2' = right, with ' a quarter of a turn.
 std::array<double, 2> combination(const Pose& pose, const Plane& right) {
   const Plane p = turned(pose.bar[1]), q = -turned(pose.bar[2]);
   const double determinant = p.x() * q.y() - p.y() * q.x();
@@ -120,7 +120,7 @@ struct Motion {
   bool rests = false;
   int dead_centres = 0, reversals = 0;
 
-  /// Begins to move from rest, or stays.
+  /// Tells whether a joint begins to move from rest or stays at rest.
   void leave_rest() {
     for (const double direction : {1.0, -1.0}) {
       const Signs slip = pose_of({z[0], direction}).slip();
@@ -149,7 +149,7 @@ struct Motion {
       const Signs slip = pose_of(next).slip();
       z = next;
       time -= within;
-      if (slip[0] * signs[0] < 0) {  // the crank's rate: all of them
+      if (slip[0] * signs[0] < 0) {  // the rates of all bars follow from that of the crank
         ++reversals;
         z[1] = 0;
         leave_rest();

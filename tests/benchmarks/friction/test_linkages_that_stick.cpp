@@ -1,5 +1,6 @@
-// Loops and chains whose hinges all stick and slip run to the end for any lengths, masses, coefficients and radii: dead
-// centres of each joint, reversals at which all come to rest at once, rest. The energy balance is closed.
+// Loops and chains whose hinges all stick and slip run to the end for any lengths, masses, coefficients and radii. They
+// contain dead centres of each joint, reversals at which all joints come to rest at once, and rest. The energy balance
+// is closed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -92,7 +93,8 @@ TEST_CASE("four-bars of all kinds whose hinges stick and slip run through") {
     const auto [coarse, few] = run(text, 1e-3, 2);
     const auto [fine, met] = run(text, 5e-4, 2);
     CAPTURE(k, text, coarse, fine);
-    // The gap is the scheme's error, of second order in each linkage: no impulse removes energy.
+    // The gap of the balance is the scheme's error, which is of second order in each linkage: no impulse removes
+    // energy.
     CHECK(fine < std::max(5e-3, 0.4 * coarse));
     events += met;
   }

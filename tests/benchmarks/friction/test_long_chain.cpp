@@ -18,7 +18,7 @@ namespace {
 constexpr int links = 100;
 constexpr double length = 0.02, mass = 0.01, mu = 0.3, radius = 0.02, g = 9.81, omega = 0.05;
 
-/// Straight down, all of it turning about the uppermost hinge at `omega`.
+/// The chain hangs straight down and turns about the uppermost hinge at `omega`.
 std::string chain() {
   std::string nodes = "nodes:\n", elements = "elements:\n", joints = "joints:\n";
   for (int k = 0; k < links; ++k) {
@@ -56,7 +56,7 @@ TEST_CASE("a hanging chain of a hundred hinges that stick and slip comes to rest
   INFO(motion.log().steps << " steps, " << motion.log().crossings << " events, at rest after " << rest << " s");
   CHECK(motion.log().crossings > 100);
   CHECK(rest < options.duration - 0.1);
-  // An event that changes the algorithmic velocities by their correction must not book this as a loss.
+  // An event that changes the algorithmic velocities by their correction must not count this change as a loss.
   CHECK(worst < 1e-5 * begun);
   CHECK(taken_back < 1e-5 * begun);
   // The parts below a hinge require no more friction than it can carry: mu times the weight below, on its radius.

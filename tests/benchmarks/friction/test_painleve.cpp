@@ -53,10 +53,11 @@ TEST_CASE("a dragged rod has the normal force of the closed form, and none beyon
   for (const double mu : {0.3, 1.0, 1.3}) {
     CAPTURE(mu);
     CHECK_THAT(force(mu, -1), WithinRel(g / (1 / m + l * l * c * (c - mu * s) / J), 1e-8));
-    // Towards its middle friction turns the rod off the plane.
+    // If its end slides towards its middle, friction turns the rod off the plane.
     CHECK_THAT(force(mu, 1), WithinRel(g / (1 / m + l * l * c * (c + mu * s) / J), 1e-8));
   }
-  // The plane holds from both sides: with a push or a pull, whose friction are opposite, there are none or two.
+  // The plane holds from both sides: with a push or a pull, which have opposite friction, there is no solution or there
+  // are two.
   CHECK_THROWS_WITH(force(1.4, -1), Contains("Painleve") && Contains("joint 'tip'"));
   CHECK_THROWS_WITH(force(1.4, 1), Contains("Painleve") && Contains("joint 'tip'"));
 }

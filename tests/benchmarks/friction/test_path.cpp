@@ -51,7 +51,7 @@ TEST_CASE("on a straight wire a bead slides and sticks as a block on an incline"
     CHECK_THAT(read(session, "normal_force"), WithinRel(N, 1e-9));
     CHECK_THAT(session.balance(), WithinAbs(0, 1e-8));
   });
-  // Bristles: N sigma_0 z balances the slope.
+  // With bristles, N sigma_0 z balances the slope.
   move_to(
       bead(line, false, at, "model: lugre, bristle_stiffness: 2e4, bristle_damping: 300, coefficient: 0.25", gravity),
       1e-3, 20, [&](const Session& session) {
@@ -112,7 +112,7 @@ TEST_CASE("a bead on a curve in space follows its equation of motion") {
         h, 1.5, [&](const Session& session) {
           error = read(session, "coordinate") - arc;
           CHECK_THAT(read(session, "rate"), WithinAbs(rate, 1e-4));
-          // The spline's third derivative jumps at its points, so that a force converges less evenly.
+          // The spline's third derivative jumps at its points, so that the force converges less regularly.
           CHECK_THAT(read(session, "normal_force"), WithinRel(N, 1e-4));
           CHECK_THAT(session.balance(), WithinAbs(0, 1e-3));
         });
@@ -142,9 +142,9 @@ TEST_CASE("a slider on a stiff beam slides and sticks as a block on an incline")
   const double a = g * (std::sin(angle) - 0.15 * std::cos(angle));
   for (const char* model : {"model: stick_slip", "model: lugre, bristle_stiffness: 2e5, bristle_damping: 3000"}) {
     CAPTURE(model);
-    // It crosses from element to element; the rail bends by 1e-9 of its length.
+    // The bead crosses from element to element; the rail bends by 1e-9 of its length.
     move_to(slider(fmt::format("{}, coefficient: 0.15", model)), 1e-3, 1.5, [&](const Session& session) {
-      // Bristles yield by mu/sigma_0 first, and their damping takes an impulse N sigma_1 mu/sigma_0.
+      // Bristles yield by mu/sigma_0 first, and their damping takes an impulse N sigma_1 mu/sigma_0 from the motion.
       CHECK_THAT(read(session, "rate"),
                  WithinAbs(1.5 * a, std::string(model) == "model: stick_slip" ? 1e-6 : N / 2 * 3000 * 0.15 / 2e5));
       CHECK_THAT(read(session, "normal_force"), WithinRel(N, 1e-4));

@@ -40,7 +40,7 @@ double force(double th, double w, double a) {
   return std::hypot(t, n);
 }
 
-/// Fixed-point iteration: contracts by mu r m l/(I + m l^2) = 0.05.
+/// The fixed-point iteration contracts by mu r m l/(I + m l^2) = 0.05.
 double acceleration(const State& z, double sign) {
   double a = 0;
   for (int k = 0; k < 20; ++k)

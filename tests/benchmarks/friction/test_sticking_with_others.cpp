@@ -47,12 +47,12 @@ TEST_CASE("a drive moves a joint that sticks, through every reversal") {
     const double t = session.time(), v = std::cos(3 * t), x = std::sin(3 * t) / 3;
     way += std::abs(x - before);
     before = x;
-    if (std::abs(v) < 0.05) return;  // the acceleration of the scheme swings for some steps after it was started anew
+    if (std::abs(v) < 0.05) return;  // the acceleration of the scheme oscillates for some steps after a restart
     const double wrong = read(session, "drive_force") - (-3 * m * std::sin(3 * t) + std::copysign(mu * m * g, v));
     longest = std::max(longest, std::abs(wrong));
   });
   CHECK(longest < 2e-2);  // relative to 6 N and 3.9 N, with steps of 0.01
-  // Rest, then a motion: the drive's constraint holds the joint, not its friction.
+  // The joint rests, and then moves: the drive's constraint holds it, not its friction.
   move(block("", "drives: {d: {joint: slide, displacement: \"if(t < 0.5, 0, (t - 0.5)^2)\"}}\n"), 1e-2, 1,
        [&](const Session& session) {
          if (session.time() < 0.51) return;
@@ -76,7 +76,7 @@ loads: {push: {node: block, force: ["4*t", 0, 0]}}
     if (t < slips - 1e-9)
       CHECK_THAT(x, WithinAbs(0, 1e-12));
     else
-      // 1e-4 comes from the scheme's own error of h^2 for a force that grows: h^2 (t - slips) 4/m in all.
+      // 1e-4 is the scheme's own error of h^2 for a force that grows: h^2 (t - slips) 4/m in total.
       CHECK_THAT(x, WithinAbs(std::pow(t - slips, 3) * 4 / (6 * m), 1e-4 * 4 / m * (t - slips) + 1e-9));
   });
 }
@@ -93,7 +93,7 @@ joints:
   between: {type: prismatic, nodes: [a, b], axis: [1, 0, 0], friction: {model: stick_slip, coefficient: 0.3}}
 loads: {push: {node: b, force: ["12*sin(3*t)", 0, 0]}}
 )yaml";
-  // The upper joint carries at most 2.9 N, the ground 5.9 N, whatever the push.
+  // The upper joint carries at most 2.9 N, the ground 5.9 N, for any push.
   double upper = 0;
   move(stack, 1e-2, 3, [&](const Session& session) {
     CHECK_THAT(read(session, "coordinate", "below"), WithinAbs(0, 1e-12));

@@ -38,8 +38,8 @@ TEST_CASE("a screw locks itself where the slope of its thread is below the coeff
       CHECK_THAT(session.read("joints/screw/coordinate")[1], WithinAbs(0, 1e-12));
       CHECK(session.read("joints/screw/sticks")[0] == 1);
     });
-    // Slides down. Along the axis: m l th'' = -m g + (N r + mu N |l|)/c; about it: J th'' = -(l N r - sign(l) mu N
-    // r^2)/c.
+    // The screw slides down. Along the axis: m l th'' = -m g + (N r + mu N |l|)/c; about it: J th'' = -(l N r - sign(l)
+    // mu N r^2)/c.
     for (const double share : {0.999, 0.5}) {
       const double mu = share * slope, sign = pitch > 0 ? 1 : -1;
       Eigen::Matrix2d A;
@@ -84,12 +84,12 @@ TEST_CASE("a chain pulled over guides needs the force of the capstan") {
       [&](const Session& session) {
         if (!first) return;
         first = false;
-        // The first block has the force itself along its guide, and one rod: T cos = held + mu T sin.
+        // The first block has the given force along its guide, and one rod: T cos = held + mu T sin.
         const double h = delta / 2, ratio = (1 + mu * std::tan(h)) / (1 - mu * std::tan(h));
         double T = held / (std::cos(h) - mu * std::sin(h));
         for (int i = 1; i < n; ++i) {
           CAPTURE(i);
-          // Inertia: m v^2 is 1e-9 of the forces.
+          // Inertia is negligible: m v^2 is 1e-9 of the forces.
           CHECK_THAT(session.read(fmt::format("joints/g{}/normal_force", i))[0],
                      WithinRel(i < n - 1 ? T * (1 + ratio) * std::sin(h) : T * std::sin(h), 1e-6));
           if (i < n - 1) T *= ratio;

@@ -26,7 +26,8 @@ elements: {top: {type: rigid_body, node: top, mass: 15, inertia: [0.234375, 0.46
 joints: {pivot: {type: spherical, nodes: [ground, top], position: [0, 0, 0]}}
 )yaml";
 
-// The tip held as a node: no constraint, no multiplier. Inertia about the node: 0.234375 + 15 = 15.234375.
+// The tip is held as a node, so that there is no constraint and no multiplier. The inertia about the node is 0.234375 +
+// 15 = 15.234375.
 const std::string tip = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {tip: {fixed: [x, y, z], angular_velocity: [0, 150, -4.61538]}}

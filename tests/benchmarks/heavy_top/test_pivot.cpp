@@ -24,7 +24,7 @@ joints: {pivot: {type: spherical, nodes: [ground, top], position: [0, 0, 0]}}
   const auto errors = [&](double h) -> VectorX {
     VectorX e = VectorX::Zero(6);
     integrate(model, Scheme::generalized_alpha(0.8), h, 2, [&](const State& state) {
-      // On the body, inertial: m (a - g).
+      // The force on the body in inertial axes is m (a - g).
       const auto force = [&] { return Vector3(15 * (model.node(state, "top").a + Vector3(0, 0, 9.81))); };
       if (std::abs(state.time - 1) < h / 2) e.head<3>() = force() - exact.vector("1.force");
       if (std::abs(state.time - 2) < h / 2) e.tail<3>() = force() - exact.vector("2.force");

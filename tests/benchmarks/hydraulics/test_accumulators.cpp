@@ -85,13 +85,14 @@ TEST_CASE("a pulsating flow fills and empties an accumulator across its precharg
                          const double p = pressure_of(session), t = session.time();
                          const double pushed = below + 1e-4 / 20 * (1 - std::cos(20 * t));
                          CAPTURE(t, p);
-                         // The trapezoidal rule's error of the flow, and the change of the modulus with the pressure.
+                         // The error is that of the flow by the trapezoidal rule, and the change of the modulus with
+                         // the pressure.
                          CHECK(fluid_to(p) == Approx(pushed).margin(1e-8));
                          (p > precharge ? filled : empty) += 1;
                        });
     CHECK(filled > 50);
     CHECK(empty > 5);
     CHECK(log.refused_by_newton == 0);
-    CHECK(log.crossings == 7);  // up in each of the four periods that begin, down in three
+    CHECK(log.crossings == 7);  // upwards in each of the four periods that begin, downwards in three
   }
 }

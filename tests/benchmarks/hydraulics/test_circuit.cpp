@@ -66,7 +66,7 @@ TEST_CASE("a closed circuit keeps its mass to rounding where flows conserve mass
   const Kept kept = run_closed("mass", 1e-3);
   CHECK(kept.fluid < 1e-13);
   CHECK(kept.moved > 0.01);
-  // The textbook's law conserves volumes, each at its own pressure: mass appears and vanishes in proportion to
+  // The law of the textbook conserves volumes, each at its own pressure: mass appears and vanishes in proportion to
   // pressures over B.
   CHECK(run_closed("volume", 1e-3).fluid > 1e-7);
 }
@@ -77,14 +77,14 @@ TEST_CASE("energy balances in a closed circuit: what is missing falls with the s
     const double coarse = run_closed(conserves, 1e-3).energy, fine = run_closed(conserves, 5e-4).energy;
     INFO("missing " << coarse << " and " << fine << " J");
     CHECK(std::abs(fine) < 0.35 * std::abs(coarse));
-    CHECK(std::abs(fine) < 0.1);  // relative to some 400 J of the flywheel
+    CHECK(std::abs(fine) < 0.1);  // relative to about 400 J of the flywheel
   }
 }
 
 TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
   Fluid fluid;
   fluid.air_fraction = 0.005;
-  // Reference: effective moduli by direct evaluation of -v/v' in quadruple precision.
+  // The reference is the effective moduli by direct evaluation of -v/v' in quadruple precision.
   CHECK(fluid.effective_modulus(1e3) == Approx(6.289e3).epsilon(1e-3));
   CHECK(fluid.effective_modulus(1e6) == Approx(7.4899e8).epsilon(1e-4));
   CHECK(fluid.effective_modulus(20e6) == Approx(1.3950e9).epsilon(1e-4));
@@ -98,7 +98,7 @@ TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
         // The inverse converges from any guess.
         for (const double guess : {-1., 1e5, 4e7})
           CHECK(fluid.pressure_of(fluid.ratio(p).v, guess) == Approx(p).epsilon(1e-12).margin(1e-6));
-        // v is the slope of the work, and v' its own.
+        // v is the derivative of the work, and v' the derivative of v.
         CHECK((fluid.ratio(p + e).v - fluid.ratio(p - e).v) / (2 * e) == Approx(fluid.ratio(p).v_p).epsilon(1e-5));
         if (p > 1) CHECK((fluid.work(p + e) - fluid.work(p - e)) / (2 * e) == Approx(fluid.ratio(p).v).epsilon(1e-4));
         for (const auto conserves : {Fluid::Conserves::volume, Fluid::Conserves::mass}) {
@@ -112,7 +112,7 @@ TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
 }
 
 TEST_CASE("a closed chamber that is drawn out cavitates, and closes with the fluid that it had") {
-  // Half a litre drawn out to twice its volume and back again, without air and with it.
+  // Half a litre is expanded to twice its volume and compressed again, without air and with it.
   for (const char* air : {"0", "0.01"}) {
     const std::string drawn = fmt::format(
         "nodes:\n  end: {{position: [0, 0, 1.5], motion: {{z: \"0.5*step(t, 0, 0.2) - 0.5*step(t, 0.2, 0.4)\"}}, "
@@ -132,13 +132,13 @@ TEST_CASE("a closed chamber that is drawn out cavitates, and closes with the flu
     CAPTURE(air);
     CHECK(change < 1e-14);
     CHECK(lowest > 0);
-    CHECK(lowest < 3e3);  // vapour, or air of twice a hundred times its volume
+    CHECK(lowest < 3e3);  // vapour, or air of two hundred times its volume
     CHECK(last == Approx(5e6).epsilon(1e-7));
   }
 }
 
 TEST_CASE("pressures at the start that are not given hold the load") {
-  // Pushed by a weight, pulled by it, and single-acting; the mass stays where it is.
+  // The load pushes, pulls, and acts on a single-acting cylinder; the mass does not move.
   struct Load {
     const char *areas, *position;
     double p1, p2;
@@ -163,7 +163,7 @@ TEST_CASE("pressures at the start that are not given hold the load") {
 }
 
 TEST_CASE("statics: trapped oil gives under a load as its stiffness says") {
-  // k = B (A_1^2/V_1 + A_2^2/V_2), for a small load.
+  // For a small load, k = B (A_1^2/V_1 + A_2^2/V_2).
   const std::string text =
       "nodes:\n  mass: {position: [0, 0, 1.25], fixed: [x, y, rx, ry, rz]}\n"
       "elements:\n  jack: {type: hydraulic_actuator, nodes: [ground, mass], piston_areas: [2e-3, 1.2e-3], "

@@ -76,7 +76,7 @@ TEST_CASE("a single-acting cylinder comes to the speed of the orifice formula") 
 }
 
 TEST_CASE("a double-acting cylinder answers its opening valve as its equations say") {
-  // t = 0.1; the ramp of the command ends at a step. The edges of the valve open smoothly over a thousandth of their
+  // At t = 0.1 the ramp of the command ends at a step. The edges of the valve open smoothly over a thousandth of their
   // opening (lines/spool_valve.hpp).
   const std::vector<double> exact = numbers("opened_0.1", {"length", "rate", "pressure_1", "pressure_2"});
   check_second_order(

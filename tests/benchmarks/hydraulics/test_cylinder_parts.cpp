@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/hydraulics/actuators/chamber_space.hpp"
 #include "tests/benchmarks/hydraulics/hydraulic_runs.hpp"
 #include "tests/support/dense_model.hpp"
 
@@ -70,8 +71,8 @@ TEST_CASE("stiffness, damping and mass of a cylinder give the frequency of its t
   for (int k = 0; k < dense.nodes(); ++k)
     if (file.model.node(k).name == "mass") free.push_back(6 * k + 2);
   for (int k = dense.first_order_begin(); k < dense.multiplier_begin(); ++k) free.push_back(k);
-  REQUIRE(free.size() == 7);  // z; fluid, pressure and space of two chambers
-  // Units in which all are of order one: m, Pa, m^3.
+  REQUIRE(free.size() == 7);  // z, and fluid, pressure and space of two chambers
+  // Units in which all unknowns are of order one: m, Pa, m^3.
   VectorX unit = VectorX::Ones(7);
   for (int k = 0; k < 2; ++k) unit.segment<3>(1 + 3 * k) << 1e-3, 1e9, 1e-3;
   const auto part = [&](DenseModel::Part which) {
@@ -91,7 +92,7 @@ TEST_CASE("stiffness, damping and mass of a cylinder give the frequency of its t
   int found = 0, still = 0;
   for (const std::complex<double> s : eigenvalues(K, C, M)) {
     if (std::abs(s) < 1e-3) {
-      ++still;  // the fluid of each chamber stays what it is
+      ++still;  // the amount of fluid in each chamber is constant
     } else {
       CHECK(s.real() == Approx(-decay).epsilon(1e-7));
       CHECK(std::abs(s.imag()) == Approx(frequency).epsilon(1e-9));
@@ -125,8 +126,8 @@ TEST_CASE("a telescopic cylinder extends stage after stage, each with its speed 
 }
 
 TEST_CASE("a cushion slows a piston down as its orifice says, and lets it out freely") {
-  // Light and driven by constant pressure: A_2 v = C_d A(x) sqrt(2 (p_2 - p_port)/rho), p_2 A_2 = p_1 A_1 along the
-  // way.
+  // The piston is light and driven by constant pressure: A_2 v = C_d A(x) sqrt(2 (p_2 - p_port)/rho), and p_2 A_2 = p_1
+  // A_1 during the stroke.
   constexpr double A1 = 2e-3, A2 = 1.2e-3, length = 0.1, port_area = 1e-4, narrow = 2e-6;
   const std::string own =
       "ambient_pressure: 0, supply: {pressure: 1e7, tank: 0}, valve: {area: 1e-4, command: \"if(t < 1, 1, -1)\"}, ";
@@ -167,7 +168,7 @@ TEST_CASE("a cylinder that is pressed against its stop gives by force over stiff
       "end_stops: {stiffness: 1e7, damping: 1e5}");
   const std::vector<double> found = at_end(text, {.h = 2e-3, .end = 2, .rho = 0.6},
                                            {"elements/jack/length", "elements/jack/stop_force", "elements/jack/rate"});
-  const double F = 1e7 * 2e-3 - 500 * g;  // p_2 falls to the tank's
+  const double F = 1e7 * 2e-3 - 500 * g;  // p_2 falls to the pressure of the tank
   CHECK(found[0] == Approx(1.3 + F / 1e7).epsilon(1e-6));
   CHECK(found[1] == Approx(-F).epsilon(1e-4));
   CHECK(std::abs(found[2]) < 1e-6);
@@ -190,6 +191,114 @@ TEST_CASE("a chamber without stops tells when it is driven out of its stroke") {
     CAPTURE(told);
     CHECK((told.find("hydraulic_actuator 'jack' left its stroke of 1 to 1.3 m") != std::string::npos) == (end > 0.5));
   }
+}
+
+TEST_CASE("a cylinder that is driven out of its stroke tells where it was farthest, also in a run that goes on") {
+  // The ends move apart by x = 0.2 sin(2 pi t); the longest and the shortest length are 1.2 m at 0.25 s and 0.8 m at
+  // 0.75 s. Strokes that are exceeded by 5 % of their length are reported, and one that ends there is not.
+  const auto told = [](double shortest, double longest, double save) {
+    const std::string text = fmt::format(
+        "nodes:\n  end: {{position: [0, 0, 1], motion: {{z: \"0.2*sin(2*pi*t)\"}}, fixed: [x, y, rx, ry, rz]}}\n"
+        "elements:\n  jack: {{type: hydraulic_actuator, nodes: [ground, end], piston_areas: [1e-3, 0], dead_volumes: "
+        "[1e-2], stroke: [{}, {}], ports: [room]}}\n"
+        "hydraulics:\n  supplies: {{room: {{pressure: 1e6}}}}\n",
+        shortest, longest);
+    const MechanismFile file = read_mechanism_text(text, "model.yaml"), same = read_mechanism_text(text, "model.yaml");
+    Session session(file.model), other(same.model);
+    DynamicsOptions options;
+    options.duration = 1;
+    options.stepping.size = 1e-2;
+    session.begin_analysis("dynamic");
+    Motion motion = session.dynamics(options);
+    if (save == 0) {
+      motion.finish();
+      return session.gathered();
+    }
+    motion.advance_to(save);
+    const std::vector<double> saved = session.save();
+    other.begin_analysis("dynamic");
+    other.dynamics(options, saved).finish();
+    return other.gathered();
+  };
+  for (const double save : {0.0, 0.5, 0.9}) {
+    CAPTURE(save);
+    CHECK_THAT(told(0.7, 1.17619, save), Catch::Contains("it was 1.2 m long at t = 0.25 s"));
+    CHECK_THAT(told(0.82381, 1.3, save), Catch::Contains("it was 0.8 m long at t = 0.75 s"));
+    CHECK(told(0.8, 1.2, save).empty());
+  }
+}
+
+TEST_CASE("a cylinder that starts at the end of its stroke is pressed against its stop") {
+  // The length is 1.5 m exactly; the pressure, less the load, pushes outwards by F from rest.
+  const std::string text = lifted(
+      500, 1.5,
+      "piston_areas: [2e-3, 0], dead_volumes: [1e-4], stroke: [1, 1.5], ports: [room], friction: {viscous: 1e4}, "
+      "end_stops: {stiffness: 1e7, damping: 1e5}",
+      "hydraulics:\n  supplies: {room: {pressure: 10101325}}\n");
+  const double F = 1e7 * 2e-3 - 500 * g;
+  const std::vector<double> found =
+      at_end(text, {.h = 1e-3, .end = 1, .rho = 0.6}, {"elements/jack/length", "elements/jack/stop_force"});
+  CHECK(found[0] == Approx(1.5 + F / 1e7).epsilon(1e-9));
+  CHECK(found[1] == Approx(-F).epsilon(1e-6));
+}
+
+TEST_CASE("the energy of a cylinder that bounces on its stop is balanced") {
+  // The pressure is given, so that its work over the ambient pressure is the input: 20 kJ per metre.
+  const MechanismFile file = read_mechanism_text(
+      lifted(500, 1.4,
+             "piston_areas: [2e-3, 0], dead_volumes: [1e-4], stroke: [1, 1.5], ports: [room], end_stops: {stiffness: "
+             "1e7, damping: 2e4}",
+             "hydraulics:\n  supplies: {room: {pressure: 10101325}}\n"),
+      "model.yaml");
+  Session session(file.model);
+  DynamicsOptions options;
+  options.duration = 0.4;
+  options.stepping.size = 2e-4;
+  options.scheme = Scheme::generalized_alpha(0.9);
+  Motion motion = session.dynamics(options);
+  double farthest = 0, returned = 1;
+  while (motion.step()) {
+    const double l = number(session, "elements/jack/length");
+    farthest = std::max(farthest, l);
+    if (farthest > 1.5) returned = std::min(returned, l - 1.5);
+  }
+  CHECK(farthest > 1.51);
+  CHECK(returned < -1e-3);  // it left the stop
+  const Energy energy = motion.energy();
+  CHECK(energy.dissipation > 100);
+  CHECK(number(session, "energy/balance") == Approx(0).margin(0.5));
+}
+
+TEST_CASE("a change of stages stiffens or softens a cylinder by the pressure times the slope of its area") {
+  // In the middle of a transition over 2 % of 0.5 m the quintic step has the slope 15/8.
+  const MechanismFile file = read_mechanism_text(
+      lifted(500, 1.5,
+             "stages: [{piston_areas: [4e-3], length: 0.5}, {piston_areas: [2e-3], length: 0.5}], stroke: [1, 2], "
+             "ports: [room]",
+             "hydraulics:\n  supplies: {room: {pressure: 10101325}}\n"),
+      "model.yaml");
+  Session session(file.model);
+  DynamicsOptions options;
+  options.duration = options.stepping.size = 1e-9;
+  const Motion motion = session.dynamics(options);
+  DenseModel dense(file.model);
+  int z = -1;
+  for (int k = 0; k < dense.nodes(); ++k)
+    if (file.model.node(k).name == "mass") z = 6 * k + 2;
+  REQUIRE(z >= 0);
+  const double over = 1e7, slope = (2e-3 - 4e-3) * 15.0 / 8 / (0.02 * 0.5);
+  CHECK(dense.tangent(motion.state(), DenseModel::Part::K)(z, z) == Approx(-over * slope).epsilon(1e-9));
+}
+
+TEST_CASE("a stage between longer ones has its own area and volume") {
+  // Transitions are 2 % of the shorter of two stages: 0.08 mm about the ends of a stage of 4 mm, which leave its
+  // middle.
+  const ChamberSpace space(1, 1e-4, 1, {{4e-3, 0.3}, {2e-3, 0.004}, {1e-3, 0.3}});
+  const ChamberSpace::Value middle = space.at(1.302);
+  CHECK(middle.V == Approx(1e-4 + 4e-3 * 0.3 + 2e-3 * 0.002).epsilon(1e-12));
+  CHECK(middle.V_l == Approx(2e-3).epsilon(1e-12));
+  CHECK(middle.V_ll == Approx(0).margin(1e-12));
+  CHECK(space.at(1.604).V == Approx(1e-4 + 4e-3 * 0.3 + 2e-3 * 0.004 + 1e-3 * 0.3).epsilon(1e-12));
 }
 
 TEST_CASE("tiny chambers do not limit the step: steps of 30 hydraulic periods come to the steady speed") {
@@ -234,7 +343,7 @@ TEST_CASE("a cavity is filled in the time that its pump takes for its space") {
 }
 
 TEST_CASE("an actuator without a given pressure holds its load through statics and the motion after it") {
-  // Two analyses: the mass settles on its oil, then moves on from there without a jerk.
+  // There are two analyses: the mass settles on its oil, and then starts its motion without a jump of the acceleration.
   const std::string text = lifted(500, 1.2,
                                   "piston_areas: [2e-3, 1.2e-3], dead_volumes: [1e-4, 1e-4], stroke: [1, 1.5], "
                                   "friction: {viscous: 1000}");

@@ -39,7 +39,7 @@ TEST_CASE("the torque of a machine is displacement times head: p/(2 B) more than
     CHECK(torque(2e7, 0) == Approx(8e-6 * head(conserves, 2e7)).epsilon(1e-9));
     CHECK(torque(3e7, 1e7) == Approx(8e-6 * (head(conserves, 3e7) - head(conserves, 1e7))).epsilon(1e-9));
     CHECK(torque(0, 2e7) == Approx(-torque(2e7, 0)).epsilon(1e-12));
-    // The manual states this: 0.7 % at 20 MPa.
+    // The manual states this value: 0.7 % at 20 MPa.
     CHECK(torque(2e7, 0) / (8e-6 * 2e7) - 1 == Approx((conserves == "mass" ? -1 : 1) * 2e7 / (2 * B)).epsilon(0.01));
   }
 }

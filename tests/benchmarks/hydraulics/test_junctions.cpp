@@ -77,7 +77,7 @@ TEST_CASE("a pump into a junction that a relief valve drains: the pressure of th
     });
     CHECK(lowest == Approx(p).epsilon(1e-9));
     CHECK(highest == Approx(p).epsilon(1e-9));
-    // A volume in place of the junction gives the same result.
+    // A volume instead of the junction gives the same result.
     CHECK(at_end(circuit("volumes: {j: {volume: 1e-5}}", valve), {.h = 1e-3, .end = 0.1, .tolerance = tolerance},
                  {"hydraulics/j/pressure"})[0] == Approx(p).epsilon(1e-6));
   }
@@ -94,7 +94,7 @@ TEST_CASE("a pump that starts in the course of a motion opens the valve within a
 }
 
 TEST_CASE("junctions that float together until a valve opens rise together") {
-  // Five junctions in series, whose lines pass the flow at differences far below the valve's setting.
+  // Five junctions are in series, and their lines pass the flow at pressure differences far below the valve's setting.
   std::string places = "junctions: [j", lines = "l0: {from: j, to: j1, orifice: {diameter: 0.02}}, ";
   for (int k = 1; k < 5; ++k) {
     places += fmt::format(", j{}", k);
@@ -106,7 +106,8 @@ TEST_CASE("junctions that float together until a valve opens rise together") {
   CHECK(statics_pressure(chain, "j4") == Approx(p).epsilon(1e-9));
   CHECK(statics_pressure(chain, "j") - p == Approx(4 * drop).epsilon(1e-3));
   CHECK(at_end(chain, {.h = 0.1, .end = 0.2}, {"hydraulics/j4/pressure"})[0] == Approx(p).epsilon(1e-9));
-  // A volume between pump and valve, filled through an orifice: it begins at the ambient pressure, unlike the junction.
+  // A volume between pump and valve is filled through an orifice; unlike the junction, it begins at the ambient
+  // pressure.
   const std::vector<double> filled =
       at_end(circuit("volumes: {store: {volume: 1e-5}}\n  junctions: [j]",
                      valve + ", fill: {from: j, to: store, orifice: {diameter: 0.001}}"),
@@ -127,7 +128,7 @@ TEST_CASE("valves that check, that follow with a time constant, and pumps that d
   };
   const std::string check = "c: {from: j, to: tank, check: {diameter: 0.01}}";
   CHECK(statics_pressure(circuit("junctions: [j]", check)) == Approx(tank + checked(pumped)).epsilon(1e-9));
-  // A check valve that admits the flow that a pump draws.
+  // A check valve opens for the flow that a pump draws.
   const std::string drawn = circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}", "-1e-4");
   CHECK(statics_pressure(drawn) == Approx(tank - checked(pumped)).epsilon(1e-9));
   CHECK(at_end(drawn, {.h = 0.1, .end = 0.2}, {"hydraulics/j/pressure"})[0] ==
@@ -147,18 +148,18 @@ TEST_CASE("where a junction has no pressure the sentence says whether fluid is p
   const auto said_at_rest = [](const std::string& text) {
     return message_of<ComputationError>([&] { statics_pressure(text); });
   };
-  // A pump against a check valve, either way.
+  // A pump works against a check valve, in either direction.
   const std::string in = circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}"),
                     out = circuit("junctions: [j]", "c: {from: j, to: tank, check: {diameter: 0.01}}", "-1e-4");
   for (const auto& message : {said(in), said_at_rest(in)})
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is pumped in") && !Contains("drawn"));
   for (const auto& message : {said(out), said_at_rest(out)})
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is drawn out") && !Contains("pumped in"));
-  // The same situation, reached during a motion.
+  // The same situation is reached during a motion.
   const std::string later =
       circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}", "if(t > 0.15, 1e-4, 0)");
   CHECK_THAT(said(later), Contains("t = 0.1") && Contains("more fluid is pumped in"));
-  // A narrow hole admits too little flow, down to vacuum.
+  // A narrow hole supplies too little flow, down to vacuum.
   const std::string narrow = circuit("junctions: [j]", "c: {from: j, to: tank, orifice: {diameter: 1e-3}}", "-1e-4");
   CHECK_THAT(said(narrow), Contains("down to vacuum") && Contains("drawn out"));
   // Half of the pumped flow leaves, the rest cannot.
@@ -167,14 +168,14 @@ TEST_CASE("where a junction has no pressure the sentence says whether fluid is p
 }
 
 TEST_CASE("energies that are no numbers fail with the component that has them") {
-  // A bulk modulus in MPa: at 20 MPa the fluid is compressed to nothing.
+  // The bulk modulus is given in MPa by mistake: at 20 MPa the fluid is compressed to nothing.
   const std::string soft =
       "nodes: {b: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
       "elements: {b: {type: point_mass, node: b, mass: 100}, j: {type: hydraulic_actuator, nodes: [ground, b], stroke: "
       "[0.8, 1.3], piston_areas: [5e-3, 3e-3], dead_volumes: [1e-4, 1e-4], bulk_modulus: 1400, supply: {pressure: 2e7, "
       "tank: 101325}, valve: {area: 1e-5, command: 0.5}}}\n";
   CHECK_THAT(message_of<ComputationError>([&] { run_hydraulics(soft, {.h = 1e-3, .end = 0.1}); }),
-             Contains("t = ") && Contains("of pressure_source 'j.supply' is beyond all numbers"));
+             Contains("t = ") && Contains("of pressure_source 'j.supply' is too large for a number"));
 }
 
 TEST_CASE("pressures that seem to be in bar give a warning") {

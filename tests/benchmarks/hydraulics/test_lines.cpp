@@ -51,16 +51,17 @@ TEST_CASE("valves pass what the orifice formula says of their opening") {
   CHECK(steady_flow("relief: {area: 1e-5, pressure: 5e6}", 5.9e6, 1e6) == 0);
   CHECK(steady_flow("relief: {area: 1e-5, pressure: 5e6, transition_pressure: 10}", 6.6e6, 1e6) ==
         Approx(turbulent(1, 5.6e6)).epsilon(1e-9));
-  // Half of its range above the setting it is half open: 10/8 - 15/16 + 6/32.
+  // In the middle of its range above the setting the valve is half open: 10/8 - 15/16 + 6/32.
   CHECK(steady_flow("relief: {area: 1e-5, pressure: 4e6, range: 2e6, vented: true, transition_pressure: 10}", 5e6,
                     1e6) == Approx(turbulent(0.5, 4e6)).epsilon(1e-9));
-  // 3 times 2 MPa of the pilot and 5 MPa of the load are half of the way from 10 to 12 MPa; back it is a check valve.
+  // 3 times the pilot's 2 MPa and the load's 5 MPa are the middle of the range from 10 to 12 MPa; in the other
+  // direction it is a check valve.
   const std::string counterbalance =
       "counterbalance: {area: 1e-5, pressure: 10e6, range: 2e6, pilot: x, pilot_ratio: 3, transition_pressure: 10}";
   CHECK(steady_flow(counterbalance, 5e6, 1e6) == Approx(turbulent(0.5, 4e6)).epsilon(1e-9));
   CHECK(steady_flow(counterbalance, 3e6, 1e6) == 0);
   CHECK(steady_flow(counterbalance, 1e6, 3e6) == Approx(-turbulent(1, 2e6)).epsilon(1e-9));
-  // A flow valve holds its flow from its pressure on: D_e = D/(1 + (D/D_min)^8)^(1/8).
+  // A flow valve keeps its flow above its pressure difference: D_e = D/(1 + (D/D_min)^8)^(1/8).
   CHECK(steady_flow("flow_valve: {flow: 2e-4, pressure: 1e6}", 8e6, 1e6) == Approx(2e-4).epsilon(1e-4));
   CHECK(steady_flow("flow_valve: {flow: 2e-4, pressure: 1e6}", 1.25e6, 1e6) == Approx(1e-4).epsilon(1e-3));
   CHECK(steady_flow("flow_valve: {flow: 2e-4, pressure: 1e6}", 1e6, 2e6) == Approx(-2e-4).epsilon(1e-4));
@@ -97,7 +98,7 @@ TEST_CASE("a command beyond the ends of a spool ends the run with a sentence") {
 }
 
 TEST_CASE("an accumulator takes what its gas gives way: p V^n stays") {
-  // 0.1 l pumped into a volume whose oil is stiff: V_g = V_0 (p_0/p)^(1/n), pressures absolute.
+  // 0.1 l are pumped into a volume whose oil is stiff: V_g = V_0 (p_0/p)^(1/n), pressures absolute.
   const std::string filled =
       "hydraulics:\n  fluid: {bulk_modulus: 1e10}\n  volumes: {v: {volume: 1e-6, pressure: 5e6}}\n"
       "  supplies: {pump: {to: v, flow: 1e-4}}\n"
@@ -105,7 +106,7 @@ TEST_CASE("an accumulator takes what its gas gives way: p V^n stays") {
   const std::vector<double> found =
       at_end(filled, {.h = 0.01, .end = 1}, {"hydraulics/v/pressure", "hydraulics/store/fluid_volume"});
   const double V_1 = 1e-3 * std::pow(4. / 5, 1 / 1.4), p = 5e6 * std::pow(V_1 / (V_1 - 1e-4), 1.4);
-  CHECK(found[0] == Approx(p).epsilon(1e-3));  // the oil of 0.5 l at B = 1e10 gives as well
+  CHECK(found[0] == Approx(p).epsilon(1e-3));  // the oil of 0.5 l at B = 1e10 is compressed as well
   CHECK(found[1] == Approx(1e-3 - V_1 + 1e-4).epsilon(1e-3));
 }
 
@@ -144,7 +145,7 @@ TEST_CASE("water hammer: the pressure rises by rho a w, and stays for twice the 
       ++count;
     }
   });
-  // Friction at a viscosity of 1e-6 is far below 1e-3 of it.
+  // At a viscosity of 1e-6 friction is far below 1e-3 of the pressure.
   CHECK(plateau / static_cast<double>(count) == Approx(rise).epsilon(2e-3));
   CHECK(highest < 1.05 * rise);
 }
@@ -156,11 +157,13 @@ TEST_CASE("the loss of a pipe: laminar, rough and turbulent") {
     return pipe_loss({1, d, roughness * d}, 1000, 1000 * nu, w * S).R / (1 / d * 500 * w * w);
   };
   CHECK(factor(500, 0) == Approx(64. / 500).epsilon(1e-6));
-  // Hagen and Poiseuille, down to no flow, where Churchill's formula is not evaluated: R = 128 mu L/(pi d^4) q.
+  // The law of Hagen and Poiseuille holds down to zero flow, where Churchill's formula is not evaluated: R = 128 mu
+  // L/(pi d^4) q.
   for (const double Re : {1e-3, 0.5, 0.999, 1.001, 20.}) CHECK(factor(Re, 0.001) == Approx(64 / Re).epsilon(1e-6));
   const double resistance = 128 * 1000 * nu / (M_PI * std::pow(d, 4));
   CHECK(pipe_loss({1, d, 1e-5}, 1000, 1000 * nu, 0).R_q == Approx(resistance).epsilon(1e-12));
-  // Colebrook's equation by iteration; Churchill's fit is within half a per cent (his paper), 1 % with its own error.
+  // Colebrook's equation is solved by iteration; Churchill's fit agrees within half a per cent (his paper), 1 % with
+  // the error of Colebrook's equation.
   const auto colebrook = [](double Re, double k) {
     double x = 8;
     for (int i = 0; i < 100; ++i) x = -2 * std::log10(k / 3.7 + 2.51 * x / Re);
@@ -198,7 +201,7 @@ TEST_CASE("a pump drives a motor: speeds are those of the displacements, and not
   CHECK(rate == Approx((2e-6 * 50 - leak) / 4e-6).epsilon(1e-6));
   CHECK(found[5] == Approx(0.08 * rate).epsilon(1e-6));
   CHECK(found[4] == Approx(0.08 * rate * rate).epsilon(1e-6));
-  // The pump takes the power that the motor delivers, its drag and its leakage.
+  // The power of the pump is that of the motor, of its drag and of its leakage.
   CHECK(-found[3] == Approx(found[4] + 0.01 * rate * rate + leak * D).epsilon(1e-3));
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("the dynamics of a locked spool wait, and go on from the opening that 
 }
 
 TEST_CASE("a spool of second order stands when it is unlocked, although it moved when it was locked") {
-  // The command jumps from 0.2 to 0.8 at 0.35: the spool is fast at 0.4137.
+  // The command jumps from 0.2 to 0.8 at 0.35: the spool moves fast at 0.4137.
   constexpr double omega = 2 * M_PI * 3, zeta = 0.3;
   const double damped = omega * std::sqrt(1 - zeta * zeta);
   const auto response = [&](double t) {  // to a unit step, from rest

@@ -42,7 +42,7 @@ TEST_CASE("lines: no time constant, no setting and no pilot are as if the key we
   same("relief: {pressure: 2e6, area: 1e-5, time_constant: 0}", "relief: {pressure: 2e6, area: 1e-5}");
   same("relief: {pressure: 0, area: 1e-5}", "check: {area: 1e-5}");
   same("valve: {area: 1e-5, command: 0.4, time_constant: 0}", "valve: {area: 1e-5, command: 0.4}");
-  // Only the pressure of its load opens it: a relief valve whose spring room is vented.
+  // Only the pressure of its load opens the valve, which is a relief valve whose spring room is vented.
   same("counterbalance: {pressure: 3e6, pilot: x, pilot_ratio: 0, area: 1e-5}",
        "relief: {pressure: 3e6, vented: true, area: 1e-5}");
 }
@@ -79,7 +79,7 @@ TEST_CASE("a cylinder without friction, stops and cushions, by keys of 0") {
   CHECK(length(", friction: {viscous: 0, coulomb: 0, static: 0, stribeck_velocity: 0}") == Approx(plain).epsilon(1e-9));
   CHECK(length(", leakage: 0, external_leakage: [0, 0], compliances: [0, 0]") == Approx(plain).epsilon(1e-9));
   CHECK(length(", vapour_pressure: 0") == Approx(plain).epsilon(1e-9));
-  // A cushion of no length is the port alone, and one that closes altogether closes at the end only.
+  // A cushion of zero length is the port alone, and one that closes completely closes at the end only.
   const std::string port = ", cushions: {lengths: [0, 0], areas: [1e-7, 1e-7], port_area: 1e-4}",
                     far = ", cushions: {lengths: [1e-3, 1e-3], areas: [0, 0], port_area: 1e-4}";
   CHECK(length(port) == Approx(plain).epsilon(1e-4));

@@ -76,8 +76,8 @@ TEST_CASE("an overloaded belt drive transmits the torque of the capstan equation
     CHECK(std::max(T[0], T[1]) == Approx(limit.tight).epsilon(1e-6));
     CHECK(std::min(T[0], T[1]) == Approx(limit.slack).epsilon(1e-6));
     CHECK(std::abs(session.read("joints/belt/slip_velocity")[0]) == Approx(2).epsilon(1e-6));
-    // All power of the motor is lost.
-    // The error of the start, at which the belt begins to slip within a step, is less than the loss of a step.
+    // All power of the motor is lost. The belt begins to slip within a step at the start; the error of this is less
+    // than the loss of a step.
     const double lost = limit.torque * 20 * 0.5;
     CHECK(motion.energy_balance().totals().dissipation == Approx(lost).margin(limit.torque * 20 * 1e-3));
     CHECK(std::abs(motion.balance()) < limit.torque * 20 * 1e-3);
@@ -126,7 +126,8 @@ TEST_CASE("the small pulley of a belt slips at its own wrap") {
 }
 
 TEST_CASE("statics lets a rope slip until friction holds it") {
-  // The end b is drawn by 10 mm over a fixed drum: T_2 = k T_1 with T_1 = EA (E_0 + s)/(L - E_0 - s), and T_2 likewise.
+  // The end b is pulled by 10 mm over a fixed drum: T_2 = k T_1 with T_1 = EA (E_0 + s)/(L - E_0 - s), and T_2
+  // likewise.
   const std::string text = R"yaml(
 nodes:
   a: {position: [-0.1, 0, -1], fixed: true}
@@ -150,7 +151,8 @@ joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 
 }
 
 TEST_CASE("a rope that is drawn to and fro over a drum dissipates the area of its loop") {
-  // The work of the end over a period, of the tension next to it; the balance is of first order in the step at least.
+  // The work of the end over a period follows from the tension next to it; the balance is of first order in the step at
+  // least.
   const auto run = [](double h) {
     const std::string text = R"yaml(
 nodes:

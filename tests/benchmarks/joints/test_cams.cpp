@@ -54,7 +54,7 @@ TEST_CASE("a flat follower on an eccentric circle moves harmonically and takes i
   move(text, 1e-3, 0.7, [](const Session& session) {
     const double theta = speed * session.time();
     CHECK(session.node("tappet").x.y() == Approx(R + e * std::sin(theta)).margin(2e-9));
-    // The scheme's own error in accelerations is slightly more than (h w)^2/12 of e w^2 = 4 m/s^2.
+    // The scheme's own error of accelerations is slightly more than (h w)^2/12 of e w^2 = 4 m/s^2.
     const double force = m * (g - e * speed * speed * std::sin(theta));
     CHECK(session.read("joints/contact/reaction_inertial")[1] == Approx(force).margin(2e-3));
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(force * e * std::cos(theta)).margin(2e-5));
@@ -119,8 +119,8 @@ TEST_CASE("a flat follower of a shaft that speeds up lifts off once in a turn, a
     REQUIRE(motion.finish());
     INFO("h = " << h);
     REQUIRE(times.size() == 1);
-    // A chord of N over a step is off by N'' h^2/8 at most, the scheme's accelerations by some (theta' h)^2/12 of
-    // theirs and less (the spline adds 6e-6): together no more than (theta' h)^2/4 of e theta'^2, which falls by -N'.
+    // A chord of N over a step deviates by N'' h^2/8 at most, the scheme's accelerations by about (theta' h)^2/12 or
+    // less (the spline adds 6e-6): together by no more than (theta' h)^2/4 of e theta'^2, which falls by -N'.
     const double rate = w + a * high, slope = (push(high - 1e-6) - push(high + 1e-6)) / 2e-6;
     CHECK(times[0] == Approx(high).margin(std::pow(rate * h, 2) / 4 * e * rate * rate / slope).epsilon(0));
   }
@@ -143,11 +143,11 @@ TEST_CASE("contours that a follower cannot follow are refused") {
   CHECK_THROWS_WITH(run("0, 1\n1, 1\n3, 1\n", "follower: flat, normal: [0, 1, 1]"), Catch::Contains("right angles"));
 }
 
-// Friction. The guide has none, so that the push of the cam has the vertical component V = m (y'' + g). The torque
-// follows from the power of V and of friction, and for the roller once more from the force on the cam.
+// The guide has no friction, so that the push of the cam has the vertical component V = m (y'' + g). The torque follows
+// from the power of V and of friction, and for the roller also from the force on the cam.
 
 TEST_CASE("a flat follower rubs on its cam by the push times the way along the contour") {
-  // The contour slides past the face at w (R + e sin(theta)), with mu V against it.
+  // The contour slides along the face at w (R + e sin(theta)) against the friction mu V.
   const double mu = 0.3;
   const bielle::test::TemporaryFolder folder;
   const std::string text = cam(
@@ -161,12 +161,12 @@ TEST_CASE("a flat follower rubs on its cam by the push times the way along the c
     if (t > 0)
       CHECK(session.read("joints/camshaft/drive_force")[0] ==
             Approx(push * (e * std::cos(theta) + mu * along)).margin(1e-4));
-    // Coordinates of the follower relative to the cam, counted over turns.
+    // The coordinates are those of the follower relative to the cam, counted over turns.
     const std::vector<double> c = session.read("joints/contact/coordinate");
     CHECK(c[0] == Approx(-theta).margin(1e-9));
     way = R * theta + e * (1 - std::cos(theta));  // integral of H
     CHECK(c[1] == Approx(-way).margin(1e-7));
-    CHECK(std::abs(c[1] - before) < 1e-3);  // without jumps of a round
+    CHECK(std::abs(c[1] - before) < 1e-3);  // without jumps by a turn
     before = c[1];
   });
   CHECK(way > 2 * 2 * M_PI * R);
@@ -181,18 +181,19 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
                                            "velocity: 1e-6}}",
                                            r, mu, pin));
   move(text, 1e-3, 0.7, [&](const Session& session) {
-    if (session.time() == 0) return;  // nothing slides yet: the drive's speed begins here
+    if (session.time() == 0) return;  // no surface slides yet, because the drive's speed begins here
     const double theta = speed * session.time(), s = std::sin(theta), c = std::cos(theta);
     const double root = std::sqrt(reach * reach - e * e * c * c);
     const double y1 = e * c + e * e * s * c / root;
     const double y2 = -e * s + e * e * ((c * c - s * s) / root - e * e * s * s * c * c / std::pow(root, 3));
     const double V = m * (y2 * speed * speed + g);
-    // The normal from the circle's middle to the roller's, and the force of the cam on the roller, turned from it by
-    // beta to where the contour runs: the cam turns anticlockwise, its surface to -x. sin(beta) = mu pin/r.
+    // The normal points from the circle's middle to the roller's. The force of the cam on the roller is turned from it
+    // by beta in the direction in which the contour moves: the cam turns anticlockwise, its surface to -x. sin(beta) =
+    // mu pin/r.
     const double beta = std::asin(mu * pin / r), alpha = std::atan2(root, -e * c) + beta;
     const double force = V / std::sin(alpha);
     CHECK(session.read("joints/contact/normal_force")[1] == Approx(force).margin(3e-3));
-    // At the place of contact, about the camshaft.
+    // The moment is that at the place of contact about the camshaft.
     const double n_x = -e * c / reach, n_y = root / reach;
     const double x = e * c + R * n_x, y = e * s + R * n_y;
     const double torque = force * (x * std::sin(alpha) - y * std::cos(alpha));
@@ -203,7 +204,7 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
     const double spin = (reach * (n_rate - speed) + speed * r) / r;
     CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));
     const std::vector<double> rate = session.read("joints/contact/rate");
-    // The scheme's own error in velocities, some (h w)^2/12 of e w/r.
+    // The scheme's own error of velocities is about (h w)^2/12 of e w/r.
     CHECK(rate[0] / r - rate[1] == Approx(spin).margin(1e-3));
   });
 }

@@ -96,7 +96,7 @@ TEST_CASE("a clutch brings two flywheels together in the time of its capacity, a
 }
 
 TEST_CASE("a clutch that is pressed little by little engages at the time of its ramp, whatever the grid") {
-  // 500 t N m: w_0 = 500 t^2/2 (1/J_1 + 1/J_2).
+  // The torque of 500 t N m gives w_0 = 500 t^2/2 (1/J_1 + 1/J_2).
   const double engages = std::sqrt(2 * w_0 / (500 * (1 / J_1 + 1 / J_2)));
   std::vector<double> errors;
   for (const double h : {8e-3, 4e-3, 2e-3, 1.9e-3}) {
@@ -130,20 +130,20 @@ TEST_CASE("a brake stops a wheel after its time and angle, holds it, and slips b
 }
 
 TEST_CASE("an open clutch lets its flywheels pass each other, also at the same rate") {
-  // Open until 0.2 s; the first is driven past the second, whose rate it has at 0 and at 0.1 s: w_1 = 40 - 200 t (t -
-  // 0.1).
+  // The clutch is open until 0.2 s. The first wheel is driven past the second, whose rate it has at 0 and at 0.1 s: w_1
+  // = 40 - 200 t (t - 0.1).
   const std::string text =
       wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "2*(-200)*(2*t - 0.1)*if(t > 0.2, 0, 1)");
   for (const double h : {0.01, 0.007})
     move_to(text, h, 0.6, [h](const Session& session) {
-      // -200 t (t - 0.1) = -4 rad/s at 0.2 s; then 15 rad/s^2 stop it after 4/15 s.
+      // The relative rate is -200 t (t - 0.1) = -4 rad/s at 0.2 s; then 15 rad/s^2 reduce it to zero within 4/15 s.
       const double before = -200 * (0.008 / 3 - 0.1 * 0.04 / 2), after = -0.5 * 4 * 4 / 15;
       CHECK_THAT(read(session, "axle/coordinate"),
                  WithinAbs(before + after, 400 * 0.2 * h * h / 10));  // jerk 400 rad/s^3
       CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-11));
       CHECK(read(session, "axle/clutch_sticks") == 1);
     });
-  // The wheel is at rest without a load, and then the clutch closes.
+  // The wheel is at rest without a load when the clutch closes.
   const auto events =
       events_of(wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "0"), 0.01, 0.4, [](const Session& session) {
         CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-12));
@@ -153,7 +153,7 @@ TEST_CASE("an open clutch lets its flywheels pass each other, also at the same r
 }
 
 TEST_CASE("a brake whose force follows the rate slows the wheel down exponentially") {
-  // The capacity 4 |w|: 2 w' = -4 w.
+  // With the capacity 4 |w|, 2 w' = -4 w.
   const double h = 2e-3;
   move_to(wheel("clutch: {capacity: 4*abs(axle.angle.rate)}", 30, "0"), h, 1, [&](const Session& session) {
     CHECK_THAT(read(session, "axle/rate"), WithinRel(30 * std::exp(-2.0), 4 * h * h));
@@ -161,8 +161,8 @@ TEST_CASE("a brake whose force follows the rate slows the wheel down exponential
 }
 
 TEST_CASE("a torque limiter slips by the angle of an overload, and holds again") {
-  // The motor turns uniformly; the wheel behind the limiter bears the load 32 t (2 - t) <= 32 N m. It slips from 1.25 *
-  // 24 on with 24 N m.
+  // The motor turns uniformly; the wheel behind the limiter carries the load 32 t (2 - t) <= 32 N m. It slips from 1.25
+  // * 24 N m on with 24 N m.
   const double C = 24, J = 2;
   const auto load = [](double t) { return 32 * t * (2 - t); };
   const double begins = root([&](double t) { return load(t) - 1.25 * C; }, 0, 1);
@@ -196,7 +196,7 @@ drives: {motor: {joint: motor, angle: 10*t}, load: {joint: axle, torque: -32*t*(
 }
 
 TEST_CASE("a sprag clutch under an alternating torque advances as the piecewise solution, to the second order") {
-  // J v' = T (sin(W t) - b): opens at sin = b, holds again at v = 0, once in each period.
+  // J v' = T (sin(W t) - b): the clutch opens at sin = b and holds again at v = 0, once in each period.
   const double J = 2, T = 9, W = 5, b = 0.3, opens = std::asin(b) / W;
   const auto rate = [&](double t) { return T / J * ((std::cos(W * opens) - std::cos(W * t)) / W - b * (t - opens)); };
   const double holds = root(rate, M_PI / W, 2 * M_PI / W + opens);
@@ -230,7 +230,7 @@ TEST_CASE("a sprag clutch under an alternating torque advances as the piecewise 
 }
 
 TEST_CASE("a rocker moves a winch on by a freewheel, and a pawl keeps it") {
-  // Three rigid constraints act on two angles as long as all stand still: the clutch that the motion needs holds.
+  // Three rigid constraints act on two angles while both are at rest: the clutch that the motion needs holds.
   const std::string freewheel = "  freewheel: {type: hinge, nodes: [rocker, winch], axis: [0, 0, 1], one_way: {}}\n",
                     pawl = "  pawl: {type: hinge, nodes: [ground, winch], axis: [0, 0, 1], one_way: {}}\n";
   const bool pawl_first = GENERATE(false, true);
@@ -280,8 +280,8 @@ TEST_CASE("a rigid one-way clutch yields to a drive forwards, and contradicts it
 }
 
 TEST_CASE("three one-way clutches hold two wheels both ways, whichever of them push") {
-  // The first wheel may turn forwards, the second one backwards, and forwards on the first one: neither turns. The
-  // signs of the torques, and of their sum, change which two clutches have a force.
+  // The first wheel may turn forwards, the second one backwards, and forwards relative to the first one: neither turns.
+  // The signs of the torques, and of their sum, determine which two clutches have a force.
   const std::string text = R"yaml(
 nodes: {a: {}, b: {}}
 elements:
@@ -308,7 +308,8 @@ drives:
 }
 
 TEST_CASE("an elastic one-way clutch engages where it is activated") {
-  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s; then it springs back as k p^2 = J w^2 + 2 T p.
+  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s; then the spring turns it back by k p^2 = J w^2 +
+  // 2 T p.
   const std::string text = R"yaml(
 nodes: {w: {}}
 elements: {w: {type: rigid_body, node: w, mass: 1, inertia: [1, 1, 2]}}
@@ -325,7 +326,8 @@ events: {on: {when: t, crosses: 0.5, do: [{activate: dog}]}}
 }
 
 TEST_CASE("a one-way clutch that is released while it holds engages elsewhere when it is activated") {
-  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s. It holds there, a ratchet at its next tooth.
+  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s. The clutch holds there, a ratchet at its next
+  // tooth.
   for (const auto& [keys, place] : {std::pair("", -0.25), std::pair("pitch: 0.1", -0.3)}) {
     const std::string text = fmt::format(R"yaml(
 nodes: {{w: {{}}}}
@@ -369,8 +371,8 @@ drives: {{load: {{joint: rail, force: {}}}}}
 }
 
 TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go forwards") {
-  // Thrown forwards at 3 rad/s against 4 N m: up to 2.25 rad, back to the last of the teeth at 0.4 rad, 2 rad. The
-  // torque turns at 8 s and moves it on.
+  // Started forwards at 3 rad/s against 4 N m, the wheel turns to 2.25 rad and back to the last of the teeth at 0.4
+  // rad, 2 rad. The torque changes its sign at 8 s and moves it on.
   for (const double h : {0.01, 0.0137}) {
     const auto events = events_of(wheel("one_way: {pitch: 0.4}", 3, "-4 + 0.5*t"), h, 9, [](const Session& session) {
       // 2 v' = -4 + t/2 from rest at 8 s: v = (t - 8)^2/8, 2.4 + (t - 8)^3/24.
@@ -381,7 +383,8 @@ TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go for
     REQUIRE(events.size() == 2);
     CHECK_THAT(events[1].time, WithinRel(8, 1e-6));
   }
-  // With a constant torque up to 2.25 rad, and back at 2 rad after 3/2 + sqrt(0.25) s with 1 rad/s: 1 J is lost.
+  // With a constant torque it turns to 2.25 rad, and is back at 2 rad after 3/2 + sqrt(0.25) s with 1 rad/s: 1 J is
+  // lost.
   const auto events = events_of(wheel("one_way: {pitch: 0.4}", 3, "-4"), 0.01, 4, [](const Session& session) {
     CHECK_THAT(read(session, "axle/coordinate"), WithinRel(2, 1e-12));
     CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-12));
@@ -394,30 +397,30 @@ TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go for
 }
 
 TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and gives its energy back") {
-  // Thrown forwards at 1 rad/s against 4 N m: at rest after 0.5 s and 0.25 rad. Then it swings about 0.25 - 4/k rad and
-  // comes to rest there by its damping.
+  // Started forwards at 1 rad/s against 4 N m, the wheel is at rest after 0.5 s and 0.25 rad. Then it oscillates about
+  // 0.25 - 4/k rad and comes to rest there by its damping.
   move_to(wheel("one_way: {stiffness: 800, damping: 40}", 1, "-4"), 2e-3, 3, [](const Session& session) {
     CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25 - 4.0 / 800, 1e-8));
     CHECK_THAT(read(session, "axle/one_way_force"), WithinRel(4, 1e-5));
     CHECK_THAT(session.balance(), WithinAbs(0, 0.01 * 1.6e-3));  // 4^2/(2 k) = 0.01 J, (w h)^2
   });
-  // It lets a wheel go that begins at rest: 2 rad after 1 s forwards and 1 s of braking.
+  // The clutch releases a wheel that begins at rest: 2 rad after 1 s forwards and 1 s of braking.
   move_to(wheel("one_way: {stiffness: 800, damping: 40}", 0, "if(t < 1, 4, -4)"), 2e-3, 5,
           [](const Session& session) { CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(2 - 4.0 / 800, 1e-6)); });
-  // A motion that follows another begins with the clutch's present wind-up.
+  // A following motion begins with the clutch's present wind-up.
   {
     const auto file = bielle::mechanism::read_mechanism_text(wheel("one_way: {stiffness: 800}", 1, "-4"), "model.yaml");
     Session session(file.model);
     bielle::mechanism::DynamicsOptions options;
     options.stepping.size = 1e-3;
-    for (const double duration : {0.6, 0.15}) {  // at rest after 0.5 s; a turn of its swing takes 0.314 s
+    for (const double duration : {0.6, 0.15}) {  // at rest after 0.5 s; the period of its oscillation is 0.314 s
       options.duration = duration;
       session.dynamics(options).finish();
     }
     // From 0.25 rad on p = (4/k) (1 - cos(20 (t - 0.5))).
     CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25 - 4.0 / 800 * (1 - std::cos(20 * 0.25)), 1e-5));
   }
-  // Undamped, the torque -4 + 2 t: it opens, and nothing is lost.
+  // Without damping, the torque is -4 + 2 t: the clutch opens, and no energy is lost.
   const auto events = events_of(wheel("one_way: {stiffness: 800}", 1, "-4 + 2*t"), 1e-3, 4, [](const Session& session) {
     CHECK_THAT(session.energy().dissipation, WithinAbs(0, 1e-12));
     CHECK_THAT(session.balance(), WithinAbs(0, 1e-5));

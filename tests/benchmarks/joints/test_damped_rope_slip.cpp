@@ -97,7 +97,7 @@ TEST_CASE("a damped band brake slows its drum by the capstan equation at long st
     CAPTURE(h);
     const Run releasing = run(band_brake(20, 0.1, 0.3, tau), h, 1, "band");
     CHECK(releasing.rate == Approx(slow).epsilon(1e-3));
-    // The first step contains the transient of the band, which it does not resolve.
+    // The first step contains the transient of the band, which the step does not resolve.
     CHECK(releasing.error < 1e-3 * std::max(1.0, h / 5e-3));
     const double tightened = 20 - r * F * (std::exp(0.3 * M_PI) - 1) / J;
     const Run tightening = run(band_brake(-20, 0.1, 0.3, tau), h, 1, "band");

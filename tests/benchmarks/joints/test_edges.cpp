@@ -24,8 +24,8 @@ void run(const std::string& text, double end = 0.01) {
 
 TEST_CASE(
     "points that run fast on a circle keep their energy where steps are long: rods, links and curves as hinges do") {
-  // 0.6 rad per step at 30 m/s: the scheme alone takes some 2 % of 450 J in 1 s; without correction of velocities links
-  // gained more than twice their energy.
+  // The wheel turns by 0.6 rad per step at 30 m/s: the scheme alone dissipates about 2 % of 450 J in 1 s; without
+  // correction of velocities links gained more than twice their energy.
   const bielle::test::TemporaryFolder folder;
   const std::string path = folder.path() + "/circle.csv";
   std::ofstream out(path);
@@ -98,7 +98,7 @@ drives: {{motor: {{joint: h1, torque: 1}}}}
                                          crown_first ? "nodes: [crown, pinion], axes: [[0, 0, 1], " + axis + "]"
                                                      : "nodes: [pinion, crown], axes: [" + axis + ", [0, 0, 1]]");
     CAPTURE(crown_first);
-    // The pinion's axis passes above P, on the side of +z: the crown is pushed towards -z, its bearing pushes back.
+    // The pinion's axis passes above P, on the side of +z: the crown is pushed towards -z, and its bearing reacts.
     move_to(text, 0.01, 0.02,
             [](const Session& session) { CHECK(session.read("joints/h1/reaction_inertial")[2] > 1); });
   }
@@ -116,7 +116,7 @@ joints: {rope: {type: cable, nodes: [a, p, b], radii: [0, 0.39, 0], axis: [0, 0,
 }
 
 TEST_CASE("statics begin where teeth and ropes only touch") {
-  // Teeth: 1 N m on wheel 1 through r = 0.02 and 0.05 onto a spring of 100 N m/rad.
+  // The teeth transmit 1 N m on wheel 1 by r = 0.02 and 0.05 to a spring of 100 N m/rad.
   const std::string teeth = R"yaml(
 nodes: {w1: {}, w2: {position: [0.07, 0, 0]}}
 elements:

@@ -69,7 +69,7 @@ TEST_CASE("two shafts vibrate against each other with the frequency of their ela
       const double e = -ratio * w_1 / w * std::sin(w * session.time());
       found = std::max(found, std::abs(read(session, "pair/deformation") - e));
       CHECK_THAT(session.balance(), WithinAbs(0, 1e-3 * 0.5 * J_1 * w_1 * w_1));
-      // The torque on each shaft, also that on the ground's side of the teeth.
+      // The values are the torques on each shaft, including that on the ground's side of the teeth.
       CHECK_THAT(read(session, "pair/force", 1), WithinRel(-k * read(session, "pair/deformation"), 1e-10));
       CHECK_THAT(read(session, "pair/force", 0), WithinRel(ratio * k * read(session, "pair/deformation"), 1e-10));
     });
@@ -80,7 +80,7 @@ TEST_CASE("two shafts vibrate against each other with the frequency of their ela
 }
 
 TEST_CASE("the vibration of two shafts decays by the damping of their gear") {
-  // J e'' + d e' + k e = 0 from e = 0 at the rate -ratio w_1.
+  // J e'' + d e' + k e = 0 starts from e = 0 at the rate -ratio w_1.
   constexpr double d = 10;
   const double decay = d / (2 * J), w = std::sqrt(k / J - decay * decay), start = -ratio * w_1;
   double error = 1;
@@ -135,7 +135,7 @@ TEST_CASE("a shaft passes through the backlash, strikes the other elastically, a
 }
 
 TEST_CASE("a damped coupling dissipates what its shafts lose in a collision") {
-  // The flanks part when the force vanishes, before the deformation does.
+  // The flanks separate when the force vanishes, before the deformation does.
   const double b = 0.02, d = 12, hits = 0.5 * b / std::abs(ratio * w_1), lasts = M_PI * std::sqrt(J / k) + 2e-3;
   const double w = std::sqrt(k / J), zeta = d / (2 * J * w), w_d = w * std::sqrt(1 - zeta * zeta);
   // p = (v/w_d) exp(-zeta w t) sin(w_d t); k p + d pdot = 0 where tan(w_d t) = -d w_d/(k - d zeta w).
@@ -184,7 +184,7 @@ drives: {{load: {{joint: second, torque: {}}}}}
 }
 
 TEST_CASE("a rack with play, and a differential with a soft input") {
-  // The rack of 2 kg is pushed by 3 N against a locked pinion: it moves by b/2 + F/k.
+  // A force of 3 N pushes the rack of 2 kg against a locked pinion: it moves by b/2 + F/k.
   const std::string rack = R"yaml(
 nodes: {a: {}, r: {position: [0, -0.3, 0]}}
 elements: {r: {type: point_mass, node: r, mass: 2}}

@@ -97,7 +97,7 @@ TEST_CASE("helical teeth push along the axes and tilt the wheels") {
                              "helix_angle: {}}}\n",
                              beta)),
           0.01, 0.1, [&](const Session& session) {
-            // Right-handed teeth that run forwards push their partner along t = cos(beta) y - sin(beta) z.
+            // Right-handed teeth that move forwards push their partner along t = cos(beta) y - sin(beta) z.
             const double axial = tangential * std::tan(beta), radial = tangential * std::tan(M_PI / 9) / std::cos(beta);
             const std::vector<double> f1 = session.read("joints/h1/reaction_inertial"),
                                       f2 = session.read("joints/h2/reaction_inertial");
@@ -117,7 +117,7 @@ TEST_CASE("a pinion in a ring turns in the ring's sense") {
           0.01, 0.1, [](const Session& session) {
             const double theta = session.read("joints/h1/coordinate")[0];
             CHECK(session.read("joints/h2/coordinate")[0] == Approx(theta * 2 / 9).epsilon(1e-9));
-            // Teeth meet at (-0.02, 0, 0); they push the ring outwards, along -x, the pinion along +x.
+            // The teeth meet at (-0.02, 0, 0); they push the ring outwards, along -x, and the pinion along +x.
             const double force = session.read("joints/mesh/force")[0] + session.read("joints/mesh/force")[1];
             CHECK(force > 1);
             CHECK(session.read("joints/h1/reaction_inertial")[0] == Approx(-force * std::sin(M_PI / 9)).epsilon(1e-9));
@@ -157,8 +157,8 @@ drives:
 }
 
 TEST_CASE("a worm turns its wheel by its lead") {
-  // Worm about x at the origin, radius 0.02, lead angle 0.2: helix angle pi/2 - 0.2. Wheel about z, radius 0.08, at
-  // (0, 0.1, 0). One turn of the worm moves its thread by 2 pi 0.02 tan(0.2).
+  // The worm turns about x at the origin, with radius 0.02 and lead angle 0.2: helix angle pi/2 - 0.2. The wheel turns
+  // about z, with radius 0.08, at (0, 0.1, 0). One turn of the worm moves its thread by 2 pi 0.02 tan(0.2).
   const double lead = 0.2;
   const std::string text = fmt::format(R"yaml(
 nodes:
@@ -206,13 +206,14 @@ joints:
     CHECK(session.read("joints/h3/coordinate")[0] == Approx(6 * t).epsilon(1e-9));
     CHECK(session.read("joints/h2/coordinate")[0] == Approx(-16 * t).epsilon(1e-9));  // (30 - 6) * 20/30, backwards
   };
-  // By ratios: the sun relative to the carrier and the planet, the ring relative to the carrier and the planet.
+  // The ratios are those of the sun relative to the carrier and the planet, and of the ring relative to the carrier and
+  // the planet.
   move(text +
            "  outer: {type: gear, joints: [h1, h3, h2], factors: [2, -2, 3]}\n"
            "  inner: {type: gear, joints: [h3, h2], factors: [8, 3]}\n" +
            drive,
        0.01, 0.5, check);
-  // By teeth: both meshes on the carrier; the ring is the ground, seen from the carrier by a node of its own.
+  // Both meshes with teeth are on the carrier; the ring is the ground, represented on the carrier by a node of its own.
   move(
       text +
           "  outer: {type: gear_mesh, nodes: [sun, planet], carrier: carrier, axes: [0, 0, 1], radii: [0.02, 0.03]}\n"
@@ -268,7 +269,7 @@ drives: {motor: {joint: axle, torque: 2}}
 }
 
 TEST_CASE("elastic teeth yield by their force, and free play is crossed in free flight") {
-  // Wheel 2 is held; at rest the teeth of wheel 1 are pressed in by F_n/k along their normal, cos(alpha) r theta.
+  // Wheel 2 is held; at rest the teeth of wheel 1 are compressed by F_n/k along their normal, cos(alpha) r theta.
   const std::string text = R"yaml(
 nodes: {w1: {}, w2: {position: [0.07, 0, 0], fixed: true}}
 elements: {b1: {type: rigid_body, node: w1, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}
@@ -288,7 +289,7 @@ drives: {motor: {joint: h1, torque: 1}}
   session.dynamics(options).finish();
   REQUIRE(!events.empty());
   CHECK(events[0].time == Approx(std::sqrt(2 * play * 1e-3)).epsilon(1e-8));  // theta = t^2/(2 J)
-  // The damper has brought it to rest: F_n = 1/slope.
+  // The damper has brought the wheel to rest: F_n = 1/slope.
   CHECK(session.read("joints/h1/coordinate")[0] == Approx(play + 1 / (slope * slope * 1e6)).epsilon(1e-6));
   CHECK(session.read("joints/mesh/force")[0] == Approx(1 / slope).epsilon(1e-5));
 }

@@ -43,8 +43,9 @@ joints: {{wire: {{type: point_on_curve, nodes: [ground, bead], curve: "{}", clos
   bielle::test::advance_by_runge_kutta(z, 2.0, 8000, [](const Vector2& y) -> Vector2 {
     return {y[1], -9.81 * std::cos(y[0])};
   });
-  REQUIRE(z[0] > 2 * M_PI);                                        // once round at least
-  const double force = 2 * (z[1] * z[1] - 9.81 * std::sin(z[0]));  // towards the middle, less the weight's part
+  REQUIRE(z[0] > 2 * M_PI);  // once round at least
+  // Towards the middle, less the component of the weight.
+  const double force = 2 * (z[1] * z[1] - 9.81 * std::sin(z[0]));
   const auto error = [&](double h) {
     Eigen::VectorXd left(3);
     move_to(text, h, 2.0, [&](const Session& session) {
@@ -80,8 +81,8 @@ loads: {{weight: {{node: s, force: [0, 0, -10]}}}}
     compute_statics(session);
     const double a = share * l, b = l - a, w = 10 * a * a * b * b / (3 * E * I * l);
     CAPTURE(share, w);
-    // At nodes the beam is exact; within an element Hermite's curve lacks the kink in the curvature: up to P L^3/(192 E
-    // I), with L = l/8.
+    // At nodes the beam is exact; within an element Hermite's curve has no kink in the curvature: the error is up to P
+    // L^3/(192 E I), with L = l/8.
     const double lacking = 10 * std::pow(l / 8, 3) / (192 * E * I);
     CHECK(-session.node("s").x.z() == Approx(w).margin(1.05 * lacking + 1e-4 * w));
     CHECK(session.read("joints/ring/reaction_inertial")[2] == Approx(10).epsilon(1e-9));

@@ -45,7 +45,7 @@ loads: {{push: {{node: body, moment: ["0.7*cos(t)", 0.4, "-0.5*t"]}}}}
 struct Held {
   std::string direction, axis, second_axis, rates;
 };
-// Bryant angles about x, y, z in this order: the two that are free are the axes of a cross.
+// Bryant angles about x, y, z are in this order: the two free ones are the axes of a cross.
 const std::vector<Held> one_rotation = {{"rx", "[0, 1, 0]", "[0, 0, 1]", "[0, 2, 3]"},
                                         {"ry", "[1, 0, 0]", "[0, 0, 1]", "[2, 0, 3]"},
                                         {"rz", "[1, 0, 0]", "[0, 1, 0]", "[2, 3, 0]"}};
@@ -215,7 +215,7 @@ TEST_CASE("a universal joint that holds the spin of a rod leaves its motion as i
   auto other = spinning.dynamics(steps_of(1, 2e-3));
   double gap = 0;
   while (motion.step() && other.step()) gap = std::max(gap, (held.node("mass").x - spinning.node("mass").x).norm());
-  CHECK(gap < 1e-4);  // errors of the steps differ by the spin's terms
+  CHECK(gap < 1e-4);  // errors of the steps differ by the terms of the spin
   CHECK((held.node("mass").x - Vector3(1, 0, 0)).norm() > 0.5);
 }
 

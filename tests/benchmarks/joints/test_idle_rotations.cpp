@@ -76,7 +76,7 @@ TEST_CASE("point masses on springs, cables and rods need no holds") {
 }
 
 TEST_CASE("a coupler without inertia about its line moves like one with some") {
-  // Moments of inertia about the line change nothing: no moment acts about it, and it does not spin at the start.
+  // Moments of inertia about the line have no effect: no moment acts about it, and the body does not spin at the start.
   CHECK(largest_gap(four_bar(0), four_bar(1e-3), "rocker", 1) < 1e-9);
   CHECK(largest_gap(four_bar(0), four_bar(1e-3), "coupler", 1) < 1e-9);
 }

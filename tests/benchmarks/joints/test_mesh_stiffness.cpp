@@ -56,8 +56,8 @@ TEST_CASE("the stiffness of ISO 6336-1 is that of the example of ISO/TR 6336-30"
   const IsoStiffness k = iso_stiffness(pair, 1.54909);
   CHECK_THAT(k.single, WithinRel(12.37047e9, 1e-6));
   CHECK_THAT(k.mesh, WithinRel(17.46485e9, 1e-6));
-  // Along the normal, inclined to the transverse plane by the helix angle at the base cylinder: tan(beta_b) = tan(beta)
-  // cos(alpha_t).
+  // The stiffness is along the normal, which is inclined to the transverse plane by the helix angle at the base
+  // cylinder: tan(beta_b) = tan(beta) cos(alpha_t).
   const double transverse = std::atan(std::tan(alpha) / std::cos(pair.helix));
   const double base = std::atan(std::tan(pair.helix) * std::cos(transverse));
   CHECK_THAT(k.normal, WithinRel(0.1 * k.mesh / std::pow(std::cos(base), 2), 1e-12));
@@ -69,7 +69,7 @@ TEST_CASE("the stiffness of ISO 6336-1 is that of the example of ISO/TR 6336-30"
 }
 
 TEST_CASE("the load on teeth of varying stiffness gives their static transmission error") {
-  // Wheel 2 is held. Work of the torque M: F r_b + k' p^2/2, and TE = -p.
+  // Wheel 2 is held. The work of the torque M is F r_b + k' p^2/2, and TE = -p.
   for (const double angle : {0.0, 0.1, 0.2}) {
     const std::string text = fmt::format(R"yaml(
 nodes: {{w1: {{}}, w2: {{position: [0.07, 0, 0]}}}}
@@ -123,12 +123,12 @@ measures: {{k: teeth.stiffness, p: teeth.deformation, lead: teeth.approach}}
     CHECK_THAT(session.measure("lead"), WithinRel(read(session, "teeth/approach"), 1e-12));
     CHECK_THAT(k * p * base_1 + 0.5 * by_1 * p * p, WithinRel(40, 1e-9));
     CHECK_THAT(read(session, "h2/drive_force"), WithinRel(k * p * base_2 + 0.5 * by_2 * p * p, 1e-9));
-    CHECK(std::abs(0.5 * by_2 * p * p) > 1e-4 * k * p * base_2);  // the parametric torque is seen
+    CHECK(std::abs(0.5 * by_2 * p * p) > 1e-4 * k * p * base_2);  // the parametric torque is observed
   }
 }
 
 TEST_CASE("rigid teeth have the transmission error of their flanks, and the force that it takes") {
-  // A wave for each pitch of wheel 1, by a table of 48 points, and one for a turn of wheel 2.
+  // The error has a wave for each pitch of wheel 1, by a table of 48 points, and one for a turn of wheel 2.
   const double rate = 3, wave = 2e-4, eccentric = 5e-4;
   std::string rows;
   for (int k = 0; k <= 48; ++k)
@@ -210,7 +210,7 @@ TEST_CASE("the stiffness of the mesh makes a gear pair unstable beyond Mathieu's
     const std::string text =
         driven(W / 20, fmt::format(", stiffness: {}*(1 + {:.17g}*cos(20*phi)), damping: {:.17g}", k, eps, d),
                fmt::format(", start_rate: {:.17g}", -W / 20 * r_1 / r_2 + 1e-3));
-    const int first = 60, last = 80;  // the other multiplier has died away
+    const int first = 60, last = 80;  // the other multiplier has decayed
     std::array<double, 2> seen{};
     int step = 0;
     const int per_period = 80;
@@ -227,7 +227,7 @@ TEST_CASE("the stiffness of the mesh makes a gear pair unstable beyond Mathieu's
 }
 
 TEST_CASE("energy is conserved by teeth whose stiffness varies, at any motion") {
-  // Two free wheels that turn past each other with the teeth pressed: the parametric torque takes from their rotation.
+  // Two free wheels turn with their teeth pressed together: the parametric torque reduces their rotation.
   const std::string text = R"yaml(
 nodes: {w1: {}, w2: {position: [0.07, 0, 0]}}
 elements:

@@ -62,7 +62,7 @@ TEST_CASE("a force between nodes keeps momentum and angular momentum, along what
 TEST_CASE("a force along the line of two nodes does as a spring and damper") {
   const std::string spring =
       bodies + "  s: {type: spring_damper, nodes: [a, b], stiffness: 40, damping: 3, length: 1}\n";
-  // The unit vector from a to b by measures of positions.
+  // The unit vector from a to b is computed by measures of positions.
   const std::string law =
       "(40*(distance(a, b) - 1) + 3*((b.position.x - a.position.x)*(b.velocity.x - a.velocity.x) + "
       "(b.position.y - a.position.y)*(b.velocity.y - a.velocity.y) + (b.position.z - "

@@ -46,7 +46,7 @@ std::string loop(const std::vector<Link>& links, const std::string& drive) {
     frame = frame * AngleAxisd(links[k].angle, Vector3d::UnitZ()) * Eigen::Translation3d(links[k].length, 0, 0) *
             AngleAxisd(links[k].twist, Vector3d::UnitX());
   }
-  // The last hinge closes the loop: the loop begins again in the first frame.
+  // The last hinge closes the loop, which begins again in the first frame.
   return nodes + elements + joints + drive;
 }
 

@@ -65,7 +65,8 @@ TEST_CASE("a drive and a lock that hold the same part share its weight") {
 }
 
 TEST_CASE("locks that share a load let go by their shares") {
-  // A load that grows by 100 N/s: each of two locks, which open at 40 N, carries half, for 0.8 s; then the part falls.
+  // The load grows by 100 N/s: each of two locks, which open at 40 N, carries half of it for 0.8 s; then the part
+  // falls.
   const std::string text = lift({", locked: {release: 40}", ", locked: {release: 40}"},
                                 "loads: {f: {node: b, force: [0, 0, \"100 - 100*t\"]}}\n");
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
@@ -86,7 +87,7 @@ TEST_CASE("locks that share a load let go by their shares") {
 }
 
 TEST_CASE("a drive that lets go at a reaction reads the smallest one") {
-  // Two guides against a side force of 100 t: each carries half of it, 30 N after 0.6 s.
+  // Two guides resist a side force of 100 t: each carries half of it, 30 N after 0.6 s.
   const std::string text = lift({"", ""},
                                 "drives: {d: {joint: g1, displacement: 0, release: {when: \"sqrt(g2.reaction.x^2 + "
                                 "g2.reaction.y^2)\", crosses: 30}}}\n"
@@ -104,7 +105,7 @@ TEST_CASE("a drive that lets go at a reaction reads the smallest one") {
 }
 
 TEST_CASE("wheels that share a load lift off together") {
-  // 10 kg, pulled up by 200 t N: all of the weight at 0.5 s, on two wheels at one place.
+  // 10 kg are pulled up by 200 t N: the force is the weight at 0.5 s, on two wheels at one place.
   const std::string text = R"yaml(
 gravity: [0, 0, -10]
 nodes: {b: {position: [0, 0, 0.3], fixed: [x, y, rx, ry, rz]}}

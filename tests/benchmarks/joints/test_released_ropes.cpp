@@ -37,7 +37,7 @@ const NodeState& node(const Session& session, const char* name) {
 using namespace test_released_ropes;
 
 TEST_CASE("masses fall freely from the instant at which their rope with friction is released") {
-  const double time = GENERATE(0.2, 0.2037);  // on the grid of steps and off it
+  const double time = GENERATE(0.2, 0.2037);  // at a time of the grid of steps, and between two of them
   Session session = session_of(over_bollard(
       ", friction: 0.1", "cut: {when: clock, crosses: " + std::to_string(time) + ", do: [{release: rope}]}"));
   Motion motion = session.dynamics(steps_of(0.5, 0.002));
@@ -60,7 +60,7 @@ TEST_CASE("masses fall freely from the instant at which their rope with friction
   }
   REQUIRE_FALSE(first);
   CHECK(motion.energy().elastic == 0);
-  // The energy balance closes: the energy stored in the rope is dissipated.
+  // The energy balance closes, because the energy stored in the rope is dissipated.
   CHECK(std::abs(motion.balance()) < 1e-3 * motion.energy().kinetic);
 }
 
@@ -72,15 +72,16 @@ TEST_CASE("a rope with friction that is not active from the start holds from the
   CHECK(node(session, "a").v.z() == Approx(-0.00981).epsilon(1e-9));
   motion.finish();
   for (const double tension : session.read("joints/rope/tension")) CHECK(tension > 1);
-  // It slips: T_a = exp(mu pi) T_b, and both masses have one acceleration. The rope is stretched meanwhile by 3 mm.
+  // The rope slips: T_a = exp(mu pi) T_b, and both masses have the same acceleration. It is stretched by 3 mm
+  // meanwhile.
   const double e = std::exp(0.1 * M_PI), rate = 9.81 * (2 - e) / (2 + e);
   CHECK(node(session, "a").v.z() == Approx(-rate * 0.299).epsilon(0.05));
   CHECK(node(session, "a").v.z() == Approx(-node(session, "b").v.z()).epsilon(0.05));
 }
 
 TEST_CASE("an undamped rope that is activated again slips at once to the limit of its friction") {
-  // It has been released for 10 ms, in which both masses fell alike: its two sides have been stretched by different
-  // amounts. The energy that it has afterwards is supplied, and the later account of energy closes.
+  // The rope has been released for 10 ms, in which both masses fell equally: its two sides have been stretched by
+  // different amounts. The energy that it has afterwards is supplied, and the later energy balance closes.
   const double again = GENERATE(0.11, 0.1103);
   std::string text = over_bollard(", pretension: 60, friction: 0.1",
                                   "cut: {when: clock, crosses: 0.1, do: [{release: rope}]}, hook: {when: clock, "

@@ -129,7 +129,7 @@ TEST_CASE("an upright disk wobbles with the frequency of the linear theory") {
 }
 
 TEST_CASE("a wheel that would have to be pulled down is said to lift off") {
-  // A hub that is driven upwards by a force larger than the weight.
+  // A force larger than the weight drives a hub upwards.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {hub: {position: [0, 0, 0.5]}}
@@ -176,13 +176,13 @@ drives:
 }  // namespace
 
 TEST_CASE("a tyre that runs at an angle has the lateral force of its slip") {
-  // Free rolling: sigma_y = tan(angle) with the forward speed V cos(angle), rounded off by v_0.
+  // In free rolling, sigma_y = tan(angle) with the forward speed V cos(angle), smoothed by v_0.
   const double angle = 0.06, sigma = 10 * std::sin(angle) / std::hypot(10 * std::cos(angle), 0.1);
   move_to(towed(angle, "longitudinal: 80, lateral: 60", ""), 1e-3, 0.5, [&](const Session& session) {
     const std::vector<double> force = session.read("joints/rim/tyre_force"), slip = session.read("joints/rim/slip");
     CHECK(std::abs(slip[0]) < 1e-6);
     CHECK(std::abs(force[1]) == Approx(60 * sigma).epsilon(1e-6));
-    // The tyre pushes the hub back to the direction in which the wheel heads.
+    // The tyre pushes the hub back to the direction of the wheel.
     CHECK(session.read("joints/tow/reaction_inertial")[1] == Approx(-60 * sigma * std::cos(angle)).epsilon(1e-4));
   });
   // Brush model: psi = 60 sigma/(3 mu N), N the weight of two kilograms.

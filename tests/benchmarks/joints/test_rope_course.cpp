@@ -69,7 +69,7 @@ Run run(const std::string& text, double h, double end, const std::function<void(
   return result;
 }
 
-/// s has this value when the straight rope touches the pulley: the distance of its centre is its radius.
+/// s has this value when the straight rope touches the pulley, so that the distance of its centre is its radius.
 const double touching = (std::sqrt(0.1588) - 0.2) / 1.98;  // 0.99 d^2 + 0.2 d - 0.03 = 0
 
 }  // namespace
@@ -81,7 +81,7 @@ TEST_CASE("a rope leaves a pulley round which it bends no more, runs straight, a
     CHECK(session.read("joints/rope/length")[0] == Approx(L).epsilon(1e-10));
     CHECK(session.read("joints/rope/tension")[0] == Approx(std::max(0.0, 1e5 * E / drawn)).margin(1e-5));
   };
-  // Down for good: straight at the end.
+  // The end s stays down: the rope is straight at the end.
   const Run down = run(lowered("-0.5*t"), 0.01, 1, look);
   REQUIRE(down.events.size() == 1);
   CHECK(down.events[0].time == Approx(touching / 0.5).epsilon(1e-7));
@@ -161,9 +161,9 @@ joints: {{rope: {{type: cable, nodes: [top, peg, mass], radii: [0, {:.17g}, 0], 
 }
 
 TEST_CASE("a rope round many turns unwinds, leaves its pulley, and comes onto it the other way round") {
-  // s goes round the pulley at 1 m; the wrap is lost at the rate of the turn.
-  const double r = 0.1, angle = 0.3;  // angle of the turn by which s begins past the point of zero wrap
-  // a is far to the left on the tangent of the pulley's lowest point: its rope runs along +x at z = -r.
+  // s moves round the pulley at 1 m; the wrap decreases at the rate of the turn.
+  const double r = 0.1, angle = 0.3;  // angle of the turn by which s begins beyond the point of zero wrap
+  // a is far to the left on the tangent of the pulley's lowest point: its rope is along +x at z = -r.
   const auto text = [&](double turns, double speed) {
     const double begin = std::acos(r) - M_PI / 2 + angle;  // direction of s about -y, from +x
     return fmt::format(R"yaml(
@@ -187,7 +187,7 @@ joints:
   });
   REQUIRE(unwound.events.size() == 1);
   CHECK(unwound.events[0].time == Approx(angle + 4 * M_PI).epsilon(1e-8));
-  // Led once round, it meets the pulley from its other side, where the tangents of the top meet again.
+  // After one turn round the pulley, the rope meets it from its other side, where the tangents of the top meet again.
   const Run round = run(text(0, 1), 0.01, 6.35, [&](const Session& session) {
     const Vector2d s(session.node("s").x.x(), session.node("s").x.z());
     const double L = session.read("joints/rope/length")[0];
@@ -250,7 +250,7 @@ joints:
   compute_statics(session, options);
   REQUIRE(lengths.size() >= 16);
   CHECK(lengths.back() == Approx(std::hypot(3.1, 2.3)).epsilon(1e-12));  // clear of all
-  // Down and up again: it leaves each pulley once and comes back onto it.
+  // s moves down and up again: the rope leaves each pulley once and returns to it.
   const Run there_and_back = run(text("0.1*sin(pi*t)", "-2.4*sin(pi*t)"), 0.02, 1, [&](const Session& at) {
     const Vector3 end = at.node("s").x;
     CHECK(at.read("joints/rope/length")[0] == Approx(hull({-1, 0.6}, {end.x(), end.z()})).epsilon(1e-6));
@@ -264,7 +264,7 @@ joints:
 }
 
 TEST_CASE("a belt that would leave a pulley which it grips says so") {
-  // The idler presses on the span between a and b, from outside, and goes away.
+  // The idler presses on the span between a and b from outside, and moves away.
   const std::string text = R"yaml(
 nodes:
   a: {fixed: true}

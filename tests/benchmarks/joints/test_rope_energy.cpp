@@ -13,7 +13,7 @@ using bielle::test::steps_of;
 namespace test_rope_energy {
 namespace {
 
-/// Masses on a rope over a drum that is held; EA is so small that strains are some per cent.
+/// The masses hang on a rope over a drum that is held; EA is so small that strains are several per cent.
 std::string masses_on_drum(double left, double right, const std::string& more, const std::string& events = {}) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]
@@ -58,7 +58,7 @@ TEST_CASE("friction on a drum at rest dissipates what the masses lose, in both d
   motion.finish();
   const double lost = motion.energy().dissipation;
   CHECK(lost > 20);
-  // The strain of the rope that passes has a share of about 1 %.
+  // The strain of the rope that passes has a contribution of about 1 %.
   CHECK(std::abs(motion.energy().input) < 1e-8 * lost);
   CHECK(std::abs(motion.balance()) < 1e-4 * lost);
 }
@@ -87,7 +87,7 @@ events:
 }
 
 TEST_CASE("a drum that turns below a band dissipates its own energy") {
-  // The band rests, and its strain with it.
+  // The band is at rest, and its strain is constant.
   const std::string text = R"yaml(
 nodes:
   anchor: {position: [-1, 0.1, 0], fixed: true}

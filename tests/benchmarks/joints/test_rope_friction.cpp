@@ -92,13 +92,13 @@ TEST_CASE("a rope slips over a fixed drum with the tensions of the capstan equat
     const double slipped = 0.5 * a * end * end, T = 1 * (g + a);
     CHECK(moved.dissipated == Approx((k - 1) * T * slipped).epsilon(0.01));
     CHECK(std::abs(moved.balance) < 2e-3 * moved.dissipated);
-    // The rope hangs without tension at first; it may be listed that it begins to slip.
+    // The rope hangs without tension at first; an event of its slip may be listed.
     for (const std::string& event : moved.events) CHECK(event.find("begins to slip") != std::string::npos);
   }
 }
 
 TEST_CASE("a rope below the limit of friction does not move on its drum at all") {
-  // k = 2.566: 2 kg against 1 kg hang in equilibrium, then b is shaken so that the ratio stays below 2.5.
+  // k = 2.566: 2 kg against 1 kg hang in equilibrium; then b is shaken so that the ratio stays below 2.5.
   const std::string text = over_drum(1, 2, "fixed: true", ", friction: 0.3, pretension: 14.715") +
                            "loads: {shaker: {node: b, force: [0, 0, \"3*sin(40*t)\"]}}\n";
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
@@ -140,7 +140,7 @@ TEST_CASE("further turns round a bollard multiply the friction") {
 }
 
 TEST_CASE("an Atwood machine whose heavy pulley slips under its rope") {
-  // As the capstan; the pulley turns by J alpha = r (T_b - T_a), more slowly than the rope.
+  // The slip follows the capstan equation; the pulley turns by J alpha = r (T_b - T_a), more slowly than the rope.
   const double mu = 0.1, k = std::exp(mu * M_PI), a = g * (3 - k * 1) / (3 + k * 1), T = 1 * (g + a), J = 0.08,
                end = 0.4, alpha = 0.1 * (k - 1) * T / J;
   REQUIRE(0.1 * alpha < a);
@@ -251,7 +251,7 @@ TEST_CASE("statics names the pulley whose friction is too small, with its tensio
                                        Catch::Contains("98.1 N before and 29.43 N after it") &&
                                        Catch::Contains("2.566 times"));
   CHECK_THAT(message(3, 10, keys), Catch::Contains("29.43 N before and 98.1 N after it"));
-  // Just above and just below the limit.
+  // The loads are slightly above and slightly below the limit.
   CHECK_THAT(message(10, 10 / (1.001 * std::exp(0.3 * M_PI)), keys), Catch::Contains("slips on pulley 'drum'"));
   const MechanismFile file =
       read_mechanism_text(over_drum(10, 10 / (0.999 * std::exp(0.3 * M_PI)), "fixed: true", keys), "model.yaml");

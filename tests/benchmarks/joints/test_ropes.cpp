@@ -42,7 +42,7 @@ TEST_CASE("an open and a crossed belt turn pulleys in the ratio of their radii")
             [&](const Session& session) {
               const double first = session.read("joints/h1/coordinate")[0];
               CHECK(first > 300);
-              // The flywheel lags by its inertia: J alpha/r_2^2 over the stiffness of the spans, some 1e-4 rad.
+              // The flywheel lags by its inertia: J alpha/r_2^2 over the stiffness of the spans, about 1e-4 rad.
               CHECK(session.read("joints/h2/coordinate")[0] == Approx(each.ratio * first).margin(2e-4));
               for (const double tension : session.read("joints/belt/tension"))
                 CHECK(tension == Approx(300).epsilon(0.02));
@@ -71,13 +71,14 @@ TEST_CASE("spans of a belt share the torque: the tight side and the slack side")
   CHECK(std::max(tensions[0], tensions[1]) == Approx(tension(e_0 + stretch)).epsilon(1e-9));
   CHECK(std::min(tensions[0], tensions[1]) == Approx(tension(e_0 - stretch)).epsilon(1e-9));
   CHECK(session.read("joints/h2/drive_force")[0] == Approx(-20).epsilon(1e-8));
-  // Bearings bear the tensions along the spans, which are inclined by asin(0.1/0.5).
+  // The bearings carry the tensions along the spans, which are inclined by asin(0.1/0.5).
   const double along = (tensions[0] + tensions[1]) * l / 0.5;
   CHECK(std::abs(session.read("joints/h1/reaction_inertial")[0]) == Approx(along).epsilon(1e-8));
 }
 
 TEST_CASE("a hoist lifts by its drum's circumference per turn, and its rope becomes stiffer") {
-  // A drum of 0.15 m at 6 m height, the rope leaves it downwards at x = 0.15; the load of 40 kg hangs 5 m below.
+  // The drum of 0.15 m is at 6 m height, and the rope leaves it downwards at x = 0.15; the load of 40 kg hangs 5 m
+  // below.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes:
@@ -92,7 +93,7 @@ joints:
 drives: {motor: {joint: axle, angle: "-20*step(t, 0, 4)"}}
 )yaml";
   move_to(text, 0.005, 5, [](const Session& session) {
-    // 3 m of rope are wound up; each metre kept its strain T/EA on the drum.
+    // 3 m of rope are wound up; each metre has kept its strain T/EA on the drum.
     const double strain = 392.4 / 1e6, wound = 3.0;
     CHECK(session.node("load").x.z() == Approx(1 + wound).margin(2 * strain * wound));
     CHECK(session.read("joints/rope/tension")[0] == Approx(392.4).epsilon(1e-4));
@@ -102,7 +103,7 @@ drives: {motor: {joint: axle, angle: "-20*step(t, 0, 4)"}}
 }
 
 TEST_CASE("a tackle with two falls halves the force and doubles the way") {
-  // The rope runs from the ceiling down around the block and up over a pulley to a hand at x = -1.
+  // The rope leads from the ceiling down around the block and up over a pulley to a hand at x = -1.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes:
@@ -117,7 +118,7 @@ joints:
   rope: {type: cable, nodes: [ceiling, block, top, hand], radii: [0, 0.1, -0.1, 0], axis: [0, -1, 0], EA: 1e5,
          pretension: 49.05}
 )yaml";
-  // In balance: 10 kg on two falls, 5 kg on one.
+  // In equilibrium 10 kg hang on two falls, 5 kg on one.
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
   Session session(file.model);
   bielle::mechanism::DynamicsOptions options;
@@ -162,7 +163,7 @@ nodes:
 elements: {m: {type: point_mass, node: mass, mass: 2}}
 joints: {rope: {type: cable, nodes: [top, mass], radii: [0, 0], EA: 1e5}}
 )yaml";
-  const double back = 2 * 2 / 9.81;  // when it comes down again, at 2 m/s
+  const double back = 2 * 2 / 9.81;  // when it returns down, at 2 m/s
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
   Session session(file.model);
   std::vector<double> times;
@@ -177,7 +178,7 @@ joints: {rope: {type: cable, nodes: [top, mass], radii: [0, 0], EA: 1e5}}
   motion.finish();
   REQUIRE(times.size() == 2);
   CHECK(times[0] == Approx(back).epsilon(1e-6));
-  // Half a period of the spring later it leaves again, as fast as it came.
+  // After half a period of the spring it separates again with the speed of its arrival.
   CHECK(times[1] - times[0] == Approx(M_PI * std::sqrt(2 / 1e5)).epsilon(0.03));
   CHECK(motion.balance() == Approx(0).margin(1e-3));
 }

@@ -18,7 +18,7 @@ std::vector<double> support(const Session& session, const std::string& node) {
 }  // namespace
 
 TEST_CASE("the clamp of a cantilever bears its load and its weight") {
-  // 2 m of 3 kg/m, 10 N at the end: force 10 + 6 g, moment 10 l + 6 g l/2 about -y; small deflection.
+  // 2 m of 3 kg/m carry 10 N at the end: force 10 + 6 g, moment 10 l + 6 g l/2 about -y; the deflection is small.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes:

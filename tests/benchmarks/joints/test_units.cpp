@@ -66,7 +66,7 @@ TEST_CASE("units of length and mass change no motion") {
   for (const auto& [L, M] : {std::pair{1000.0, 1e-3}, {1e-3, 1e3}, {1e-3, 1e-6}, {1e6, 1.0}}) {
     CAPTURE(L, M);
     const Seen other = run(L, M);
-    // Newton's tolerance, relative to the acting forces, after 600 steps.
+    // The difference is Newton's tolerance, relative to the acting forces, after 600 steps.
     CHECK(other.angle == Approx(si.angle).epsilon(1e-6));
     CHECK(other.energy == Approx(si.energy).epsilon(1e-6));
     CHECK(other.rod == Approx(si.rod).epsilon(1e-5));

@@ -31,8 +31,8 @@ struct Corner {
 };
 const std::vector<Corner> record = {{0, 0}, {0.1, 3}, {0.15, -2}, {0.4, 1}, {0.6, 0}, {3, 0}};
 
-/// Base and relative displacement of the oscillator (w = 10 rad/s) exactly: between corners a = a_0 + s tau and
-/// u'' + w^2 u = -a have the solutions below.
+/// Returns the exact displacements of the base and of the oscillator (w = 10 rad/s) relative to it: between corners a =
+/// a_0 + s tau and u'' + w^2 u = -a have the solutions below.
 struct Exact {
   double x = 0, v = 0, u = 0, udot = 0;
   static Exact at(double t) {

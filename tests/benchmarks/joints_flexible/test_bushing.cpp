@@ -67,15 +67,15 @@ TEST_CASE("a bushing's force is that of its matrix, whatever the rotation of its
     const Vector6 e = 1e-6 * random.vector(6);
     State state = dense.start();
     place(state, exp_so3(random.vector_of_length(random.uniform(0, 3))), random.vector3(5), e);
-    // Small rotations: the moment differs from -K e by second order.
+    // For small rotations the moment differs from -K e by second order.
     CHECK((on_second(dense, state, e) + K * e).norm() <= 1e-5 * (K * e).norm());
-    // Large ones: forces and energies are those of an unturned carrier.
+    // For large rotations, forces and energies are those of a pair whose carrier is not turned.
     const Vector6 large = random.vector(6);
     place(state, exp_so3(random.vector_of_length(2)), random.vector3(5), large);
     State unturned = dense.start();
     place(unturned, Matrix3::Identity(), Vector3::Zero(), large);
     CHECK((on_second(dense, state, large) - on_second(dense, unturned, large)).norm() < 1e-13);
-    // Forces along the middle frame are exact at any relative rotation; the moment along psi is, too.
+    // Forces along the middle frame are exact at any relative rotation, and so is the moment along psi.
     const Vector6 wrench = on_second(dense, state, large), N = K * large;
     CHECK((wrench.head<3>() + N.head<3>()).norm() < 1e-13);
     CHECK(dense.energy(state).elastic == Approx(0.5 * large.dot(N)).epsilon(1e-13));
@@ -102,7 +102,7 @@ TEST_CASE(
     "vanishes") {
   const auto model = model_from_text(pair_of_nodes);
   DenseModel dense(*model);
-  // Relative rotations up to 2.5 rad. The trapezoidal rule converges exponentially on periodic functions.
+  // Relative rotations reach 2.5 rad. The trapezoidal rule converges exponentially on periodic functions.
   const auto rotation = [](double s) {
     return Vector3(1.5 * std::cos(s), 1.8 * std::sin(s), 0.7 * std::sin(2 * s) + 0.5);
   };
@@ -125,7 +125,7 @@ TEST_CASE(
   }
   CHECK(size > 1);
   CHECK(std::abs(work) < 1e-12 * size);
-  // At rest where nothing is strained.
+  // The body is at rest in the position without strain.
   State state = dense.start();
   place(state, exp_so3({0.3, -1, 0.7}), {1, 2, 3}, Vector6::Zero());
   const MatrixX K = dense.tangent(state, DenseModel::Part::K);
@@ -230,10 +230,11 @@ joints:
   const std::string curve = "curves: {z: z.csv}";
   CHECK(rest(curve, -5) == Approx(-10. / 1000).epsilon(1e-9));
   CHECK(rest(curve, 0.5) == Approx(1. / 200).epsilon(1e-9));
-  CHECK(rest(curve, -20) == Approx(-40. / 1000).epsilon(1e-9));  // beyond its ends it goes on straight
+  // Beyond its ends the curve continues as a straight line.
+  CHECK(rest(curve, -20) == Approx(-40. / 1000).epsilon(1e-9));
   CHECK(rest(curve, 2) == Approx(4. / 200).epsilon(1e-9));
   CHECK(rest("stiffness: [0, 0, 1000, 0, 0, 0], preload: [0, 0, -5, 0, 0, 0]", -5) == Approx(-5. / 1000).epsilon(1e-9));
-  // A formula: 100 q + 1e6 q^3 = -10 at q = -0.02.
+  // The force is a formula: 100 q + 1e6 q^3 = -10 at q = -0.02.
   CHECK(rest("curves: {z: \"100*q + 1e6*q^3\"}", -5) == Approx(-0.02).epsilon(1e-6));
   // The branches have relaxed.
   CHECK(rest("stiffness: [0, 0, 1000, 0, 0, 0], maxwell: [{factor: 3, time: 2}]", -5) == Approx(-0.01).epsilon(1e-9));
@@ -263,7 +264,7 @@ drives:
 }
 
 TEST_CASE("a bearing's tilt resists like a torsion spring at large tilts") {
-  // A shaft that is held tilted by 2 rad, and turned: the moment is across its tilt, 500 * 2 N m.
+  // The shaft is held tilted by 2 rad and turned: the moment is across its tilt, 500 * 2 N m.
   const auto model = model_from_text(
       "nodes:\n  a: {}\n  b: {}\njoints:\n  it: {type: bearing, nodes: [a, b], axis: [0, 0, 1], second_axis: [1, 0, "
       "0], radial: 1, "
@@ -317,7 +318,7 @@ TEST_CASE("a stiffness field of a beam's matrix deflects as the beam element") {
     for (int j = 0; j < 12; ++j) file << fmt::format("{:.17g}{}", K(i, j), j < 11 ? "," : "\n");
   file.close();
   const auto tip = [&](const std::string& element) {
-    // The beam stands anywhere: along x of axes turned by (0.3, -0.5, 0.8).
+    // The beam has a general orientation: it lies along x of axes turned by (0.3, -0.5, 0.8).
     const Matrix3 R = exp_so3({0.3, -0.5, 0.8});
     const Vector3 at = 1.5 * R.col(0), y = R.col(1);
     const MechanismFile model = read_mechanism_file(folder.file(

@@ -187,7 +187,7 @@ measures: {{x: body.position.x, y: body.position.y, reaction: next.reaction.x, x
   };
   Session session = session_of(model("-main.reaction.x"));
   session.dynamics(steps_of(5, 0.01)).finish();
-  // At rest: the hinge holds the 50 N, the seal its 10 N, and the coefficients are those of 50 and of -10.
+  // At rest the hinge carries the 50 N and the seal its 10 N, and the coefficients are those at 50 and at -10.
   const auto displaced = [](double speed) {
     const double s = (speed + 100) / 200;
     Eigen::Matrix2d K;

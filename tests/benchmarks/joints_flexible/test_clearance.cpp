@@ -31,7 +31,7 @@ void fly(const std::string& text, double tolerance, double end, const std::funct
 }  // namespace
 
 TEST_CASE("a journal rests where its contacts bear its weight") {
-  // Two ends, each with half of 3 kg * 10 m/s^2 = k p^1.5.
+  // The journal has two ends, each with half of 3 kg * 10 m/s^2 = k p^1.5.
   const auto rest = [](const std::string& more) {
     const MechanismFile file = read_mechanism_text(
         R"yaml(
@@ -50,7 +50,7 @@ joints:
   };
   CHECK(-rest("length: 0.1, contact: {stiffness: 1e8}") - 1e-3 == Approx(std::pow(15 / 1e8, 2. / 3)).epsilon(1e-8));
   CHECK(-rest("contact: {stiffness: 1e6, exponent: 1}") - 1e-3 == Approx(3e-5).epsilon(1e-8));
-  // Cylinders of steel: pi/4 E* l p, E* = 210e9/(2 (1 - 0.09)).
+  // The cylinders are of steel: pi/4 E* l p, E* = 210e9/(2 (1 - 0.09)).
   CHECK(-rest("length: 0.1, contact: {young: 210e9, poisson: 0.3}") - 1e-3 ==
         Approx(30 / (M_PI / 4 * 210e9 / (2 * 0.91) * 0.1)).epsilon(1e-4));  // relative to a position of 1 mm
 }
@@ -88,8 +88,8 @@ joints:
   it: {{type: clearance_spherical, nodes: [ground, ball], radial_gap: 0.01, contact: {{stiffness: 1e8, restitution: {}}}}}
 )yaml",
                                            speed, restitution);
-      // It flies 0.01 m there, and is half way back after this time. Surfaces press 1e-6 to 4e-4 m into each other, and
-      // the error of steps should be small against that: 1e-10 of the size of 1 m.
+      // The journal flies 0.01 m to the other side, and is half way back after this time. Surfaces penetrate by 1e-6 to
+      // 4e-4 m, and the error of steps should be small compared with that: 1e-10 of the size of 1 m.
       fly(text, 1e-11, 0.01 / speed * (1 + 0.5 / restitution) + 3e-3 / std::pow(speed, 0.2),
           [&](Session& session, Motion&) {
             after = -session.node("ball").v[0];
@@ -133,7 +133,7 @@ joints:
 }
 
 TEST_CASE("collars bear a thrust, and rub at their radius") {
-  // Pressed up by 50 N against the collar at +z, which turns with the shaft: 50 N = k p^2, torque mu 50 N r.
+  // A force of 50 N presses the shaft up against the collar at +z, which turns with it: 50 N = k p^2, torque mu 50 N r.
   const std::string text = R"yaml(
 nodes:
   shaft: {position: [0, 0, 2.01e-3], fixed: [x, y, rx, ry], motion: {rz: "-60*t"}}
@@ -232,7 +232,7 @@ joints:
   });
   CHECK(dissipated > 0.1);
   CHECK(std::abs(missing) < 2e-3 * dissipated);
-  // No body passes through another: k p^2.5/2.5 is less than the energy of the start and of a fall over two gaps.
+  // No body passes through another: k p^2.5/2.5 is less than the energy at the start and of a fall over two gaps.
   const double energy = 0.5 * 2 * 0.14 + 0.5 * 1e-3 * 400 + 0.5 * 2e-3 * 0.34 + 20 * 4e-3;
   for (const double gap : least) CHECK(gap > -std::pow(2.5 * energy / 1e8, 0.4));
 }
@@ -279,7 +279,7 @@ drives:
     double most = 0;
     for (std::size_t k = 0; k < x.size(); ++k) most = std::max(most, std::abs(x[k] - ideal[k]));
     CAPTURE(gap, most);
-    // Forces of some 100 N press surfaces 1e-5 m into each other.
+    // Forces of about 100 N cause penetrations of 1e-5 m.
     CHECK(most < 1.15 * gap + 2e-5);
     CHECK(most > 0.8 * gap);
     if (before > 0) CHECK(most / before == Approx(0.5).epsilon(0.15));

@@ -98,7 +98,7 @@ TEST_CASE("derivatives within a step of a clearance with bristles are exact, and
       State state = dense.start();
       dense.move(state, 0.05 * random.vector(dense.size()));
       dense.move_rates(state, random.vector(dense.size()));
-      // Behind the joint's own memory: whether a place touches, damping, bristle.
+      // The bristle follows the joint's own memory: whether a place touches, and damping.
       const Eigen::Index places = type[10] == 'h' ? 4 : 1, first = state.memory.size() - 1 - 5 * places;
       for (Eigen::Index k = 0; k < places; ++k) {
         state.memory[first + 5 * k] = 1;

@@ -51,7 +51,7 @@ TEST_CASE("a disc's tilting splits forwards and backwards over the speed, and ea
                             whirl = ran.read("whirl"), ratio = ran.read("damping_ratio");
   REQUIRE(speed.size() == 22);
   REQUIRE(frequency.size() == 22 * 5);
-  // At rest: along y, along x, tilts (twice 200), along z.
+  // At rest the modes are along y, along x, tilts (twice 200), and along z.
   const auto at = [&](std::size_t k, std::size_t mode) { return two_pi * frequency[5 * k + mode]; };
   for (std::size_t k = 0; k < speed.size(); ++k) {
     CAPTURE(speed[k]);
@@ -75,7 +75,7 @@ TEST_CASE("critical speeds of a disc are those of the closed form, and crossings
           "[linearised]") {
   const Ran ran(disc("parameter: speed, speeds: {from: 0, to: 420, count: 8}, modes: 5"));
   const std::vector<double> critical = ran.summary.numbers.at("critical_speed"), whirl = ran.read("critical_whirl");
-  // (Jt -+ Jp) Om^2 = k, and the translations.
+  // The critical speeds of tilting are (Jt -+ Jp) Om^2 = k; the others are those of the translations.
   const std::vector<double> exact = {std::sqrt(ky / mass), std::sqrt(k_tilt / (Jt + Jp)), std::sqrt(kx / mass),
                                      std::sqrt(kz / mass), std::sqrt(k_tilt / (Jt - Jp))};
   check_rates(critical, exact, 1e-8);
@@ -91,7 +91,7 @@ TEST_CASE("critical speeds of a disc are those of the closed form, and crossings
   for (const double each : crossings)
     if (each < 420) within.push_back(each);
   std::sort(within.begin(), within.end());
-  // Linear between values a sixty-fourth of 60 rad/s apart.
+  // The frequencies are linear between values that are a sixty-fourth of 60 rad/s apart.
   check_rates(ran.read("meeting_speed"), within, 1e-3);
 }
 
@@ -103,7 +103,8 @@ TEST_CASE("a speed in other units and multiples of it", "[linearised]") {
   CHECK(ran.read("value") == std::vector<double>{600, 1200, 2400});
   const std::vector<double> speeds = ran.read("critical_speed"), orders = ran.read("critical_order"),
                             modes = ran.read("critical_mode");
-  // Twice the speed: along y 141.4/2 = 70.7, along x 189.7/2 = 94.9, tilts with Jt 4 Om^2 -+ 2 Jp Om^2 = k.
+  // Critical speeds with twice the speed: along y 141.4/2 = 70.7, along x 189.7/2 = 94.9, tilts with Jt 4 Om^2 -+ 2 Jp
+  // Om^2 = k.
   std::vector<double> twice;
   for (std::size_t k = 0; k < speeds.size(); ++k)
     if (orders[k] == 2) twice.push_back(speeds[k]);
@@ -133,9 +134,9 @@ TEST_CASE("Jeffcott's rotor on its shaft, in rotation as a whole", "[linearised]
   const double exact = std::sqrt(48 * EI / (m * L * L * L));
   const std::vector<double> critical = ran.read("critical_speed"), whirl = ran.read("critical_whirl");
   CHECK_THAT(ran.summary.text, Catch::Contains("axes that do not turn"));
-  // Beams of six elements per half: 1e-4.
+  // Six beam elements per half have an error of 1e-4.
   check_rates(critical, {exact, exact}, 1e-3);
-  // Equal frequencies at every speed: any combination of both whirls.
+  // The frequencies are equal at every speed, so that any combination of both whirls is a mode.
   CHECK(std::isnan(whirl[0]));
   for (const double f : ran.read("damped_frequency")) CHECK(f == Approx(exact / two_pi).epsilon(1e-3));
 }

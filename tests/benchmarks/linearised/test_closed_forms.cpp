@@ -90,7 +90,7 @@ TEST_CASE("a damped oscillator has s = -zeta w -+ w sqrt(zeta^2 - 1), below and 
 }
 
 TEST_CASE("the modes of oscillators far apart are all found to rounding", "[linearised]") {
-  // Frequencies over eight powers of ten in one model.
+  // One model has frequencies over eight powers of ten.
   std::string nodes = "nodes:\n", elements = "elements:\n";
   std::vector<double> exact;
   for (int k = 0; k < 9; ++k) {
@@ -102,8 +102,8 @@ TEST_CASE("the modes of oscillators far apart are all found to rounding", "[line
         "  s{0}: {{type: spring_damper, nodes: [ground, m{0}], at: [[0, {0}, 0], [0, 0, 0]], stiffness: {1}}}\n", k,
         3 * w * w);
   }
-  // Eigenvalues 1e5 times as large as the smallest are accurate to 1e-16 * 1e5 relative, and so on: they are small in
-  // the inverse.
+  // Eigenvalues 1e5 times as large as the smallest one are accurate to 1e-16 * 1e5 relative, and so on, because they
+  // are small in the inverse.
   check_rates(rates_of(nodes + elements, {.count = 6}), {exact.begin(), exact.begin() + 6}, 1e-10);
 }
 

@@ -113,7 +113,7 @@ TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
 }
 
 TEST_CASE("a vibration in time settles to the frequency response", "[linearised]") {
-  // The same oscillator, driven at 1.3 Hz by a small force in time, against |H| over the last period.
+  // A small force drives the same oscillator at 1.3 Hz in time; its motion over the last period is compared with |H|.
   const double w = two_pi * 1.3;
   std::string text = oscillator;
   text.replace(text.find("\"2*push\""), 8, "\"1e-3*cos(2*pi*1.3*t)\"");

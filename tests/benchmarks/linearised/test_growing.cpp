@@ -29,7 +29,7 @@ long listed(const ModesReport& report) {
 }  // namespace
 
 TEST_CASE("standing rods grow one by one, listed or not", "[linearised]") {
-  // s = sqrt(3 g/2 l): shorter ones grow faster.
+  // s = sqrt(3 g/2 l): shorter pendulums grow faster.
   for (const double damping : {0.0, 0.05})
     for (const int standing : {0, 1, 7, 12}) {
       const ModesOf model(rods(12, standing, damping));

@@ -96,7 +96,7 @@ TEST_CASE("masses that elastic joints keep from rotating have all their modes in
                       little = found(on_bushings("type: rigid_body, inertia: [1e-9, 1e-9, 1e-9]", turning), 12);
     CAPTURE(turning);
     CHECK(count_rigid(none) == 1);
-    std::vector<double> expected = rates_of(little);  // also those of the small inertia, which are the fastest
+    std::vector<double> expected = rates_of(little);  // including those of the small inertia, which are the fastest
     REQUIRE(expected.size() >= rates_of(none).size());
     expected.resize(rates_of(none).size());
     CHECK(expected.size() >= 10);

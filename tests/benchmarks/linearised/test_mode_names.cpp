@@ -8,6 +8,7 @@
 #include "mechanism/analyses/campbell.hpp"
 #include "mechanism/analyses/mode_groups.hpp"
 #include "mechanism/analyses/mode_names.hpp"
+#include "mechanism/solvers/linearised/whirl.hpp"
 #include "tests/benchmarks/linearised/turning_models.hpp"
 
 using namespace bielle::mechanism;
@@ -304,6 +305,73 @@ TEST_CASE("whirls of a disc and of a shaft that turn have names by the sense of 
   CHECK(found.count("2nd shaft bending, forward") == 1);
 }
 
+TEST_CASE("a motion along the axis does not change the sense of a whirl, unless the whirl is a small part",
+          "[linearised]") {
+  const ModesOf model(
+      "nodes: {hub: {}, disc: {angular_velocity: [100, 0, 0]}}\n"
+      "elements: {disc: {type: rigid_body, node: disc, mass: 5, inertia: [0.01, 0.02, 0.02]}}\n"
+      "joints:\n  mount: {type: bushing, nodes: [ground, hub], stiffness: [2e6, 1e6, 1e6, 500, 800, 800]}\n"
+      "  axle: {type: hinge, nodes: [hub, disc], position: [0, 0, 0], axis: [1, 0, 0]}\n");
+  const ModesReport report = model({.count = 5});
+  const std::vector<std::string> names = names_of(model, report);
+  const auto mode = [&](const char* name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    REQUIRE(found != names.end());
+    return report.found.modes[static_cast<std::size_t>(found - names.begin())];
+  };
+  const auto whirl = [&](const Mode& of) {
+    return whirl_of(model.session.system(), report.about.state, report.equations->M, of, Vector3::UnitX());
+  };
+  const auto norm = [&](const Mode& of) { return std::sqrt(of.u.dot(report.equations->M * of.u).real()); };
+  const Mode axial = mode("disc along the axis");
+  CHECK_FALSE(whirl(axial));
+  for (const auto& [name, sense] : {std::pair("disc tilting, forward", 1.0), std::pair("disc tilting, backward", -1.0)})
+    for (const double share : {0.0, 0.5, 1.0, 10.0}) {  // size of the motion along the axis over that of the whirl
+      CAPTURE(name, share);
+      Mode both = mode(name);
+      both.u += share * norm(both) / norm(axial) * axial.u;
+      const std::optional<double> found = whirl(both);
+      REQUIRE(found.has_value() == (share < 2));
+      if (found) CHECK(*found == Approx(sense).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a part at rest next to a rotor is named by its own axes, which are named if they are not inertial",
+          "[linearised]") {
+  const auto names = [](const std::string& turn, const std::string& axis) {
+    return names_of(
+        "nodes: {disc: {angular_velocity: [100, 0, 0]}, stand: {position: [0, 3, 0], rotation_vector: [0, 0, " + turn +
+            "], fixed: [rx, ry, rz]}}\n"
+            "elements:\n  disc: {type: rigid_body, node: disc, mass: 5, inertia: [0.01, 0.02, 0.02]}\n"
+            "  stand: {type: point_mass, node: stand, mass: 1}\n"
+            "joints:\n  shaft: {type: bearing, nodes: [ground, disc], axis: [1, 0, 0], radial: 1e6, axial: 1e6, "
+            "tilting: 1e4}\n"
+            "  base: {type: bushing, nodes: [ground, stand], axis: [0, 0, 1], second_axis: " +
+            axis + ", stiffness: [100, 200, 300, 0, 0, 0]}\n",
+        3);
+  };
+  const auto has = [](const std::vector<std::string>& all, const char* name) {
+    return std::count(all.begin(), all.end(), name);
+  };
+  const std::vector<std::string> straight = names("0", "[1, 0, 0]"),
+                                 turned = names("0.5", "[0.8775825618903728, 0.479425538604203, 0]");
+  for (const char* direction : {"x", "y", "z"}) {
+    CAPTURE(direction, straight, turned);
+    CHECK(has(straight, fmt::format("stand along {}", direction).c_str()) == 1);
+    CHECK(has(turned, fmt::format("stand along its {}", direction).c_str()) == 1);
+  }
+}
+
+TEST_CASE("a shaft that is nearly vertical does not tell the sides of a tower", "[linearised]") {
+  // The shaft rises at 53 and at 37 degrees: 0.6 and 0.8 of it are horizontal.
+  for (const bool steep : {true, false}) {
+    const ModesOf model(turbine(0, steep ? "gravity: [-7.848, 0, -5.886]\n" : "gravity: [-5.886, 0, -7.848]\n"));
+    const std::vector<std::string> names = names_of(model, behind_shaft(model, 2, 10));
+    CAPTURE(steep, names);
+    CHECK((std::count(names.begin(), names.end(), "1st tower side-side") == 0) == steep);
+  }
+}
+
 TEST_CASE("a pendulum swings about its joint, and a chain of them has modes in order", "[linearised]") {
   const auto chain = [](int count, const std::string& axis) {
     std::string nodes = "gravity: [0, 0, -9.81]\nnodes:\n", elements = "elements:\n", joints = "joints:\n";
@@ -335,7 +403,8 @@ TEST_CASE("of several pendulums the one that swings gives its joint to the name"
 }
 
 TEST_CASE("parts that share a mode are named together, and mixed directions have no word", "[linearised]") {
-  // Two equal masses on a line between three equal springs: sqrt(k/m) and sqrt(3 k/m), half of the energy in each.
+  // Two equal masses are on a line between three equal springs: sqrt(k/m) and sqrt(3 k/m), with half of the energy in
+  // each mass.
   const std::vector<std::string> names = names_of(
       "nodes: {left: {position: [1, 0, 0], fixed: [y, z]}, right: {position: [2, 0, 0], fixed: [y, z]}}\n"
       "elements:\n  left: {type: point_mass, node: left, mass: 1}\n  right: {type: point_mass, node: right, mass: 1}\n"
@@ -361,7 +430,7 @@ TEST_CASE("rigid motions of a free body have no names of their own", "[linearise
   REQUIRE(names.size() == 8);
   CHECK(names[0] == "rigid motion, 1 of 6");
   CHECK(names[5] == "rigid motion, 6 of 6");
-  CHECK(names[6] == "1st boom bending about z");  // 20 mm along y: softer about z
+  CHECK(names[6] == "1st boom bending about z");  // 20 mm along y, so that bending about z is softer
   CHECK(names[7] == "1st boom bending about y");
 }
 
@@ -394,6 +463,10 @@ TEST_CASE("modes of one name are numbered by their rates; around a frequency num
   decaying.numbered = false;
   decaying.kind = ModeKind::decaying;
   CHECK(full_names({decaying}) == std::vector<std::string>{"oil, decaying"});
+  // The shapes of rigid modes are arbitrary: parts that have most of them do not name them.
+  ModeName left = mode("left", 0, false), right = mode("right", 0, false);
+  left.kind = right.kind = ModeKind::rigid;
+  CHECK(full_names({left, right}) == std::vector<std::string>{"rigid motion, 1 of 2", "rigid motion, 2 of 2"});
 }
 
 TEST_CASE("strain energies of a beam at rest add up to its potential energy, also if its section couples them",

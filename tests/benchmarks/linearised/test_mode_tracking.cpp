@@ -28,7 +28,7 @@ SweepSample oscillators(double p, double between) {
   for (const double sign : {-1.0, 1.0}) {
     Mode mode;
     mode.s = Complex(0, std::sqrt(at_rest + between + sign * root));
-    const double angle = 0.5 * std::atan2(-between, slope * p);  // stiffness of the stiffer one
+    const double angle = 0.5 * std::atan2(-between, slope * p);  // stiffness of the larger spring
     mode.u = sign > 0 ? Eigen::Vector2cd(std::cos(angle), std::sin(angle))
                       : Eigen::Vector2cd(-std::sin(angle), std::cos(angle));
     mode.u *= std::polar(2.0, 1.3 * p + sign);  // arbitrary size and phase
@@ -62,7 +62,7 @@ TEST_CASE("modes that cross keep their numbers, which sorting by frequency would
     }
     REQUIRE(found.meetings.size() == 1);
     CHECK_FALSE(found.meetings[0].veering);
-    // Frequencies are straight lines there, up to (slope p/200)^2 relative to each other.
+    // The frequencies are straight lines there, up to (slope p/200)^2 relative to each other.
     CHECK(std::abs(found.meetings[0].value) < 1e-6);
     CHECK(found.meetings[0].frequency == Approx(10 / two_pi).epsilon(3e-3));
   }
@@ -82,14 +82,14 @@ TEST_CASE("modes that veer are told, with the gap that is left and the exchange 
     CHECK(std::abs(veering.value) < 0.1 * between / slope);
     // Each track stays on its side: the lower one remains the lower one.
     for (const SweepPoint& point : found.points) CHECK(std::abs(point.tracks[0].s) < std::abs(point.tracks[1].s));
-    // Its shape has become that of the other mass.
+    // Its shape is now that of the other mass.
     CHECK(std::abs(found.points.front().tracks[0].u[0]) > 10 * std::abs(found.points.front().tracks[0].u[1]));
     CHECK(std::abs(found.points.back().tracks[0].u[1]) > 10 * std::abs(found.points.back().tracks[0].u[0]));
   }
 }
 
 TEST_CASE("frequencies that come near without an exchange of shapes are no veering", "[linearised]") {
-  // 100 + p^2/100 and 120: the shapes do not change.
+  // The eigenvalues are 100 + p^2/100 and 120: the shapes do not change.
   const auto solve = [](double p, int /*count*/) {
     SweepSample sample;
     sample.modes.all = true;
@@ -139,8 +139,8 @@ TEST_CASE("a mode that no longer oscillates is lost, and told", "[linearised]") 
 }
 
 TEST_CASE("modes of a rotor that is nearly round are followed from rest, however soon they whirl", "[linearised]") {
-  // A point on springs 100 and 100 (1 + unequal) along x and y: it vibrates in planes at rest. In motion a gyroscopic
-  // force 2 p acts across its velocity: s^4 + (k_x + k_y + 4 p^2) s^2 + k_x k_y = 0, and whirls are round for
+  // A point on springs 100 and 100 (1 + unequal) along x and y vibrates in planes at rest. In motion a gyroscopic force
+  // 2 p acts across its velocity: s^4 + (k_x + k_y + 4 p^2) s^2 + k_x k_y = 0, and whirls are round for
   // p >> 10 unequal / 4.
   for (const double unequal : {1e-5, 1e-9, 0.0}) {
     const double kx = at_rest, ky = at_rest * (1 + unequal);

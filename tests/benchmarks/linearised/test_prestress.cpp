@@ -9,7 +9,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// In the plane x y: bending out of it is a hundred times as fast.
+/// The motion is in the plane x y: bending out of it is a hundred times as fast.
 std::string plane_beam(const std::string& a, const std::string& b, const std::string& loads, int elements = 24) {
   return fmt::format(
       "nodes: {{a: {{position: [0, 0, 0], {}}}, b: {{position: [1, 0, 0], {}}}}}\n"
@@ -47,7 +47,7 @@ TEST_CASE("a column's frequency goes to zero at Euler's load and becomes growth 
     CAPTURE(part);
     REQUIRE(!report.found.modes.empty());
     const std::complex<double> s = report.found.modes[0].s;
-    // Errors of the critical load by the mesh and by compression, some 1e-5 of it, are this share of omega^2.
+    // The errors of the critical load by the mesh and by compression, about 1e-5 of it, are this fraction of omega^2.
     CHECK((s * s).real() == Approx(-std::pow(pi, 4) * (1 - part)).margin(std::pow(pi, 4) * 1e-4));
     CHECK((report.found.modes[0].kind == ModeKind::oscillating) == (part < 1));
   }

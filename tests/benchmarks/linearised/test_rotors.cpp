@@ -44,7 +44,7 @@ TEST_CASE("a spinning disc tilts forwards and backwards with different frequenci
 
 TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[linearised]") {
   // The nonlinear model is integrated in time from a state along the mode, with constraints, gyroscopic terms and
-  // damping at once.
+  // damping together.
   const std::string text = rotor(60, 2e5, 1e5, ", damping: [200, 100, 100, 0.5, 1, 1]");
   ModesOf model(text);
   const ModesReport report = model();

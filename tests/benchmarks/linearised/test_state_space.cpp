@@ -124,7 +124,7 @@ TEST_CASE("a step of a small input moves the program as it moves the state space
 }
 
 TEST_CASE("slow eigenvalues keep their digits next to fast ones", "[linearised]") {
-  // 1 rad/s next to 1e6 rad/s: the shift between them, 1e3 rad/s, costs 6 of 16 digits.
+  // The shift lies between 1 rad/s and 1e6 rad/s, at 1e3 rad/s, which costs 6 of 16 digits.
   const ModesOf model(
       "nodes: {a: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}, b: {position: [2, 0, 0], fixed: [y, z, rx, ry, "
       "rz]}}\n"

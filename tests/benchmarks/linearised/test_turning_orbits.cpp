@@ -456,7 +456,8 @@ TEST_CASE("the mean state of a rotor out of balance has no vibration", "[lineari
   CHECK(mean.report.turning->orbit_harmonics == 0);
   CHECK(turning.report.turning->orbit_harmonics > 0);
   CHECK(turning.report.turning->displacement == Approx(24.5 / (1000 - 11 * 49)).epsilon(0.05));
-  // The hub's reaction, which keeps the rotor at its rate, is missing: exponents are wrong by more than rounding.
+  // The reaction of the hub, which keeps the rotor at its rate, is missing, so that exponents are wrong by more than
+  // rounding.
   const ReferenceTable table("turning_orbits");
   const Complex exact(0, table("unbalance.imaginary_1"));
   for (const Complex s : mean.exponents()) CHECK(distance(s, exact, 7) > 1e-3);

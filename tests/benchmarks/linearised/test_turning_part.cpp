@@ -168,7 +168,7 @@ TEST_CASE("masses on springs move outwards by m Om^2 r/(k - m Om^2), on a standi
   const double out = r * k / (k - m * rate * rate);
   const double weight = (hub + 2 * m) * g;
   CHECK((turning.node("a").x - turning.node("b").x).norm() == Approx(2 * out).epsilon(1e-6));
-  // The weight of the bearing itself is 1 kg; rotations of 1e-5 leave second-order terms.
+  // The weight of the bearing itself is that of 1 kg; rotations of 1e-5 cause terms of second order.
   CHECK(turning.node("bearing").x.y() == Approx(-(weight + g) / bearing).epsilon(1e-4));
   CHECK(log_so3(turning.node("bearing").R).x() == Approx(weight * d / tilt).epsilon(1e-3));
   // One mass is heavier, so that the rotor is unbalanced. The mean force on the bearing does not show this.
@@ -250,7 +250,7 @@ TEST_CASE("two blades on supports that differ have the exponents of Hill's equat
 
 TEST_CASE("a damped radial slide behind a joint has the same modes by a drive of its angle and of its rate",
           "[linearised]") {
-  // m u'' + c u' + (k - m Om^2) u = 0 of a slide on a driven hub: beyond sqrt(k/m) it diverges.
+  // The equation of a slide on a driven hub is m u'' + c u' + (k - m Om^2) u = 0: beyond sqrt(k/m) it diverges.
   const auto text = [](const std::string& drive, double inertia) {
     return fmt::format(
         "nodes: {{hub: {{position: [0, 0, 0]}}, m: {{position: [1, 0, 0]}}}}\n"

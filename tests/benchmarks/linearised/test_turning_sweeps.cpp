@@ -104,7 +104,8 @@ TEST_CASE("a tower under a rotor at rest has the frequencies of a cantilever wit
 
 TEST_CASE("the flap of four blades against each other has Southwell's frequency, on a standing part that moves",
           "[linearised]") {
-  // It moves no hub: w^2 = w0^2 + 1.192 Om^2 for a uniform blade at Om = w0/3.5 (tests/references/rotating_beam.csv).
+  // The hub does not move: w^2 = w0^2 + 1.192 Om^2 for a uniform blade at Om = w0/3.5
+  // (tests/references/rotating_beam.csv).
   const ReferenceTable exact("rotating_beam");
   constexpr int elements = 6;
   const auto w0 = rates_of("nodes: {root: {fixed: true}, tip: {position: [1, 0, 0]}}\nelements:\n" +
@@ -132,7 +133,7 @@ TEST_CASE("the flap of four blades against each other has Southwell's frequency,
 }
 
 TEST_CASE("a diagram of blades without `rotation` has no critical speeds", "[linearised]") {
-  // The blades are not stretched by their centrifugal forces: the state is no steady motion.
+  // The blades are not stretched by their centrifugal forces, so that the state is not a steady motion.
   const auto text = [](const char* speed) {
     return "parameters: {speed: 3}\nnodes: {hub: {}, tip: {position: [1, 0, 0]}}\nelements:\n"
            "  hub: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1]}\n" +

@@ -108,7 +108,8 @@ TEST_CASE("an eccentric disk that turns freely whirls and stays as its linear eq
 
 TEST_CASE("a balanced disk has the inertial whirl frequencies, and a slightly unbalanced one the same in its axes",
           "[linearised]") {
-  // Radially k/m, and tilting Jt w^2 -+ J Om w - k_t = 0 (G. Genta, Dynamics of Rotating Systems, 2005, ch. 4).
+  // The frequencies are sqrt(k/m) in radial directions, and those of tilting, Jt w^2 -+ J Om w - k_t = 0 (G. Genta,
+  // Dynamics of Rotating Systems, 2005, ch. 4).
   for (const double speed : {100.0, 400.0}) {
     CAPTURE(speed);
     const ModesReport balanced = modes_at(0, speed);
@@ -121,7 +122,7 @@ TEST_CASE("a balanced disk has the inertial whirl frequencies, and a slightly un
     check_rates(rates_of(balanced), exact, 1e-9);
     const ModesReport slightly = modes_at(1e-5, speed);
     CHECK_FALSE(any_grows(slightly));
-    // In turning axes s = i (w -+ Om): lower for forward modes, higher for backward ones.
+    // In turning axes s = i (w -+ Om), which is lower for forward modes and higher for backward ones.
     CHECK(slightly.axes == ModeAxes::turning);
     std::vector<double> seen = {std::abs(radial - speed), radial + speed, std::sqrt(1e6 / m), backward + speed,
                                 std::abs(forward - speed)};

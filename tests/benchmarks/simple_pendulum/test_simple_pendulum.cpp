@@ -68,7 +68,8 @@ TEST_CASE("the simple pendulum is fastest and pulls most at the bottom") {
     speed = std::max(speed, model.node(state, "bob").v.norm());
     if (state.time > 0.1) tension = std::max(tension, state.multiplier.head<3>().norm());
   });
-  // v^2 = 2 g l, 3 m g; sampled at steps of 1e-3 the bottom is missed by at most 5e-4 s: (4.4 * 5e-4)^2/2 relative.
+  // The force is v^2 = 2 g l, 3 m g; with steps of 1e-3 s a row is at most 5e-4 s away from the bottom: (4.4 *
+  // 5e-4)^2/2 relative.
   CHECK(speed == Approx(4.42944691807002).epsilon(1e-5));
   CHECK(tension == Approx(29.43).epsilon(2e-5));
 }

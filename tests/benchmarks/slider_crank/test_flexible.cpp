@@ -30,10 +30,10 @@ TEST_CASE("a flexible rod of eight beams deflects as the geometrically exact ref
   const bielle::test::ReferenceTable exact("flexible_crank");
   CHECK(highest == Approx(exact("rigid_start.highest")).epsilon(5e-3));
   CHECK(lowest == Approx(exact("rigid_start.lowest")).epsilon(5e-3));
-  // The start sets off an undamped axial vibration of the slider on the rod (19e3 rad/s, amplitude m a l/EA = 1e-5 m)
+  // The start excites an undamped axial vibration of the slider on the rod (19e3 rad/s, amplitude m a l/EA = 1e-5 m),
   // whose phase after 300 periods is not resolved.
   CHECK(model.node(end, "b").x.x() == Approx(exact("rigid_start.slider")).margin(2e-5));
-  // Work of the drive against kinetic and elastic energy: the scheme dissipates in the axial modes only.
+  // The work of the drive is compared with kinetic and elastic energy: the scheme dissipates in the axial modes only.
   CHECK(std::abs(energy_balance.balance()) < 2e-3 * energy_balance.largest());
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("the rod as a superelement deflects as the rod of beams, thanks to its
 }
 
 TEST_CASE("a slider-crank with a stiff superelement is the rigid one in closed form") {
-  // A thousand times stiffer: the rod's elongation under its 380 N is 1e-8 m, bending still less.
+  // The rod is a thousand times stiffer: its elongation under 380 N is 1e-8 m, and its bending is smaller.
   const Extremes stiff = run_with_superelement(reduced_rod(true, 1e3), 5e-5);
   CHECK(stiff.slider_error < 5e-8);
   CHECK(stiff.highest - stiff.lowest < 1e-5);
@@ -90,7 +90,7 @@ TEST_CASE("a slider-crank with a stiff superelement is the rigid one in closed f
 
 TEST_CASE("recorded fields are the recovery of the recorded coordinates") {
   bielle::test::BeamSuperelement rod = reduced_rod(false);
-  // Any rows will do: displacements of two nodes, stresses of one.
+  // The rows are arbitrary: displacements of two nodes, stresses of one.
   std::srand(3);
   rod.body.mesh.points = Eigen::Matrix3Xd::Random(3, 2);
   rod.body.displacement_recovery = MatrixX::Random(6, rod.body.size());
@@ -118,7 +118,7 @@ TEST_CASE("recorded fields are the recovery of the recorded coordinates") {
   REQUIRE(q.norm() > 0);
   const VectorX u = rod.body.displacement_recovery * q, s = rod.body.stress_recovery * q;
   CHECK((Eigen::Map<const VectorX>(&record[begin.at("displacement")], 6) - u).norm() < 1e-15 * u.norm());
-  // Von Mises stress of the deviator: sqrt(3/2 dev:dev), the definition rather than the formula.
+  // The von Mises stress is that of the deviator, sqrt(3/2 dev:dev), which is its definition.
   Eigen::Matrix3d stress;
   stress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
   const Eigen::Matrix3d deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();

@@ -108,7 +108,7 @@ TEST_CASE("forward dynamics under the torque of inverse dynamics moves as that w
 }
 
 TEST_CASE("inverse dynamics meets stops") {
-  // A stop of 1000 N m/rad from 0.5 rad on; the arm stands at 1 rad in the end.
+  // The stop has 1000 N m/rad from 0.5 rad on; the arm stands at 1 rad in the end.
   std::string text = pendulum("angle: \"step(t, 0, 1)\"");
   text.replace(text.find("axis: [0, -1, 0]"), 16, "axis: [0, -1, 0], stops: {range: [~, 0.5], stiffness: 1000}");
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
@@ -144,7 +144,7 @@ TEST_CASE("kinematics does not change its branch at a dead centre without a word
 }
 
 TEST_CASE("kinematics goes on where a drive changes its speed at once") {
-  // The speed jumps between two steps, and back from the end of one on.
+  // The speed jumps between two steps, and jumps back at the end of one.
   const MechanismFile file = read_mechanism_text(
       slider_crank(bodies, "drives: {motor: {joint: main, angle: \"3*t + 40*ramp(t, 0.113, 1.113)\"}}\n"),
       "model.yaml");
@@ -155,7 +155,7 @@ TEST_CASE("kinematics goes on where a drive changes its speed at once") {
     right = right && std::abs(at.node("piston").x[0] - 0.1 * std::cos(angle) - std::sqrt(0.04 - 0.01 * s * s)) < 1e-12;
   });
   CHECK(compute_kinematics(session, {.duration = 1.5, .step = 0.02}).points ==
-        78);  // 76 of the grid and two kinks between
+        78);  // 76 steps of the grid and two kinks between them
   CHECK(right);
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("kinematics asks for what is not driven") {
   Session filtered(filter.model);
   CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(filtered, {.duration = 1, .step = 0.1}); }),
              Contains("motion of its own"));
-  // A connecting rod that is too short: the crank gets stuck.
+  // The connecting rod is too short, so that the crank cannot turn beyond an angle.
   const MechanismFile stuck = read_mechanism_text(
       "nodes: {crank: {position: [0.1, 0, 0]}, rod: {position: [0.13, 0, 0]}}\n"
       "joints:\n  main: {type: hinge, nodes: [ground, crank], position: [0, 0, 0], axis: [0, 0, 1]}\n"

@@ -48,7 +48,7 @@ TEST_CASE("a driven rigid slider-crank follows the closed form to rounding") {
     const double x = r * std::cos(a) + std::sqrt(l * l - r * r * std::sin(a) * std::sin(a));
     worst = std::max(worst, std::abs(model.node(state, "slider").x.x() - x));
   });
-  // Positions are algebraic here: no error of the scheme, only Newton's tolerance and rounding.
+  // Positions are algebraic here, so that their error is that of Newton's tolerance and rounding.
   CHECK(worst < 1e-10);
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("the drive's torque of a rigid slider-crank at constant speed is the i
     if (step == 600) torque_90 = -state.multiplier.tail<1>()[0];
   });
   const bielle::test::ReferenceTable exact("slider_crank");
-  // Second order in h: with 2400 steps a turn the error is some 1e-5 of the torque.
+  // The error is of second order in h: with 2400 steps per turn it is about 1e-5 of the torque.
   CHECK(torque_30 == Approx(exact("torque_30")).epsilon(1e-4));
   CHECK(torque_90 == Approx(exact("torque_90")).epsilon(1e-4));
 }

@@ -54,7 +54,7 @@ struct Run {
   double lowest = 0, highest = 0, slider = 0;
   Run(const ReadyModel& model, const State& start, double h, const std::function<double(const State&)>& deflection_of) {
     TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.9), start);
-    // The rounded initial values leave the velocities of the joints some 1e-8 m/s apart.
+    // The rounded initial values have velocities of the joints that differ by about 1e-8 m/s.
     CHECK(integration.start_report().velocity_change < 1e-6);
     integration.start(h);
     const long steps = std::lround(0.1 / h), every = steps / 5;

@@ -98,7 +98,7 @@ Matrices by_points(CellType type, const Eigen::Matrix3Xd& x, const Material& mat
 
 TEST_CASE("Stiffness and mass of single cells are those of CalculiX, by its points of integration") {
   // CalculiX takes one point in the triangle of C3D6 and three in that of C3D15, and for the mass the points of the
-  // stiffness, where Bielle integrates affine cells exactly: both are compared with sums over the same points.
+  // stiffness, while Bielle integrates affine cells exactly. Both are compared with sums over the same points.
   const Quadrature one_in_triangle = simplex_quadrature(2, 1);
   Quadrature three_in_triangle{Eigen::MatrixXd::Constant(2, 3, 1.0 / 6), Eigen::VectorXd::Constant(3, 1.0 / 6)};
   three_in_triangle.points(0, 1) = three_in_triangle.points(1, 2) = 2.0 / 3;
@@ -133,7 +133,7 @@ TEST_CASE("Stiffness and mass of single cells are those of CalculiX, by its poin
       CHECK(difference(u.transpose() * same.K * u, shape + ".K") < 1e-9);
       CHECK(difference(u.transpose() * same.M * u, shape + ".M") < 1e-9);
       if (each.same_stiffness) CHECK(difference(K, shape + ".K") < 1e-9);
-      // Bielle's own are the exact ones where a cell is affine.
+      // The mass matrices of Bielle are the exact ones of affine cells.
       if (distorted) continue;
       const Matrices exact = by_points(each.type, mesh.points, material, cell_quadrature(each.type, 9));
       if (each.integration != Integration::reduced) CHECK((u.transpose() * exact.K * u - K).norm() < 1e-11 * K.norm());

@@ -110,7 +110,7 @@ TEST_CASE("A half tube and a ball approach the mass, centre and inertia of the c
       sizes[k] = std::cbrt(exact.volume / static_cast<double>(cells));
     }
     INFO(path << "\n" << error);
-    // Meshes of different size are not similar to each other: half an order either way.
+    // The meshes of different size are not similar to each other: the tolerance is half an order.
     CHECK(order(sizes, error.col(0)) == Approx(4).margin(0.5));
     CHECK(order(sizes, error.col(2)) == Approx(4).margin(0.5));
     CHECK(error.bottomRows<1>().maxCoeff() < 1e-4);

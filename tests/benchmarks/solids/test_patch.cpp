@@ -42,7 +42,7 @@ void add_brick(const std::array<int, 8>& brick, std::vector<std::array<int, 4>>&
     for (int k = 0; k < 4; ++k) f[k] = brick[face[k]];
     if (std::find(f.begin(), f.end(), first) != f.end()) continue;
     std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-    tets.push_back({f[0], f[2], f[1], first});  // seen from outside, faces turn left
+    tets.push_back({f[0], f[2], f[1], first});  // the faces are anticlockwise seen from outside
     tets.push_back({f[0], f[3], f[2], first});
   }
 }
@@ -54,7 +54,7 @@ Mesh patch(bool quadratic) {
        {std::array{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
     std::array<int, 8> brick;
     for (int k = 0; k < 4; ++k) {
-      brick[k] = f[k] + 8;  // from the inner brick to the cube; the lower and left faces turn the other way
+      brick[k] = f[k] + 8;  // from the inner brick to the cube; the lower and left faces have the opposite sense
       brick[k + 4] = f[k];
     }
     add_brick(brick, tets);

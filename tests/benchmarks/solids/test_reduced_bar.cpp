@@ -118,7 +118,7 @@ TEST_CASE("The free reduced bar has the frequencies of the rod's reduction, and 
     }
   }
   INFO(mesh_errors);
-  // The sign may be either: the mesh changes the kept modes as well as the motions that they can represent.
+  // The sign is arbitrary: the mesh changes the kept modes and the motions that they can represent.
   CHECK(mesh_errors.bottomRows<1>().cwiseAbs().maxCoeff() < 1e-6);
   for (int k = 0; k < 2; ++k) {
     CHECK(orders(mesh_errors.col(k).cwiseAbs()).tail(1)(0) > 3.8);

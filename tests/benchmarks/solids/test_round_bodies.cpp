@@ -194,7 +194,8 @@ TEST_CASE(
   }
   const auto nearest = [&](const Eigen::VectorXd& found) { return (found.array() / exact - 1).abs().minCoeff(); };
   CHECK(nearest(shaft.frequencies) < 1e-3);
-  // The free shaft follows from its ends and the torsion modes of the held one (two among 20): a little above.
+  // The free shaft follows from its ends and the torsion modes of the held one (two among 20): its frequency is
+  // slightly higher.
   CHECK(nearest(free_frequencies(shaft)) < 1e-2);
 }
 

@@ -40,7 +40,7 @@ double lamb(double k, double h) {
     const double a = std::sqrt(k * k - omega * omega / cl2), b = std::sqrt(k * k - omega * omega / ct2);
     return 4 * k * k * a * b * std::tanh(b * h / 2) - std::pow(k * k + b * b, 2) * std::tanh(a * h / 2);
   };
-  // Zero at omega = 0 and at the wave; negative in between.
+  // The function is zero at omega = 0 and at the wave, and negative in between.
   double low = 1e-3 * k * std::sqrt(ct2), high = (1 - 1e-12) * k * std::sqrt(ct2);
   const bool sign = excess(low) > 0;
   for (int step = 0; step < 200; ++step) {

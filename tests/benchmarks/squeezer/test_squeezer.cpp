@@ -113,6 +113,6 @@ TEST_CASE("the squeezing mechanism converges with order 2 to its equations of mo
       e.segment<2>(2 * k) = (model.node(state, bodies[k].first).R.col(0) - along(bodies[k].second)).head<2>();
     return e;
   };
-  // The crank turns with up to 1100 rad/s: 0.011 rad in the coarsest step.
+  // The crank turns with up to 1100 rad/s, 0.011 rad in the longest step.
   check_second_order(error, 1e-5, 2, 0.2, 0.2);
 }

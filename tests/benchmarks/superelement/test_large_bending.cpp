@@ -71,7 +71,7 @@ TEST_CASE("the 45-degree bend of superelements converges to the exact rod, in an
     // Compared with the beam of the same stiffness, the difference is that of large bending.
     const Vector3 reference = bend.beam(load, none);
     CHECK((u - reference).norm() < 5e-4 * reference.norm());
-    // Without the geometric stiffness it is wrong.
+    // Without the geometric stiffness the result is wrong.
     Superelement without = bend.body;
     without.load_stiffness.clear();
     CHECK((bend.tip(without, load, none, 6) - reference).norm() > 1e-3 * reference.norm());

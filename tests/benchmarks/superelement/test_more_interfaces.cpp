@@ -185,7 +185,7 @@ TEST_CASE("a frame that is turned quickly, as one superelement, as two joined an
     CHECK(far.joined < 3e-5);
     CHECK(far.corner < 1e-3);
     CHECK(far.frame < 1e-3);
-    // One body or two joined: the same linear theory.
+    // One body and two joined bodies have the same linear theory.
     CHECK(near.parts < 1e-5);
     // In the straight bar errors are of third order in the load. In a rotating frame of two legs they are of second
     // order: small, and not caused by loads on its interfaces.

@@ -43,7 +43,7 @@ void write_block(const std::string& path, const Eigen::Vector3d& size, const std
   write_superelement(reduce::reduce_body(mesh, options, quiet, 2), path);
 }
 
-/// A model whose nodes are put somewhere, and its warnings then.
+/// A model whose nodes are moved to given places, and the warnings of its run.
 struct Placed {
   ReadyModel model;
   State state;
@@ -108,7 +108,7 @@ TEST_CASE("a superelement that is stretched warns by its strain") {
                Block(folder, {0.1, 0, 0}, straight, ", largest_error: 0.05").says();
              }),
              Contains("% in the mean") && Contains("largest_error"));
-  // A rigid motion strains nothing.
+  // A rigid motion causes no strain.
   Block turned(folder, {-1, 1, 0}, {0, 0, M_PI / 2});
   turned.put("a", Vector3::Zero(), {0, 0, M_PI / 2});
   CHECK(turned.says().empty());
@@ -125,7 +125,7 @@ TEST_CASE(
   const std::string text = bent.says();
   CAPTURE(text);
   CHECK(bent.strain() < 1.05 * angle * 0.05);
-  CHECK(bent.strain() > 0.7 * angle * 0.05);  // two elements lie across
+  CHECK(bent.strain() > 0.7 * angle * 0.05);  // two elements across
   CHECK(bent.error() == Approx(0.006 * angle * angle).epsilon(0.01));
 }
 

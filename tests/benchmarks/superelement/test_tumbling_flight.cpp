@@ -140,7 +140,7 @@ TEST_CASE("a vibrating superelement in free flight keeps energy and momenta to s
     CAPTURE(amplitude);
     const Flight coarse = superelement_flight(true, 8, amplitude, 2e-3);
     const Flight fine = superelement_flight(true, 8, amplitude, 1e-3);
-    // Half the step gives a fourth of the error; the error of a non-conservative force or of a frame that does not
+    // Half the step has a fourth of the error; the error of a non-conservative force or of a frame that does not
     // conserve momentum would not decrease.
     CHECK_THAT(coarse.energy / fine.energy, Catch::WithinAbs(4, 0.2));
     CHECK_THAT(coarse.momentum / fine.momentum, Catch::WithinAbs(4, 0.2));

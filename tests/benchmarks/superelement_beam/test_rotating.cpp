@@ -78,7 +78,7 @@ TEST_CASE(
     CHECK(values(0) < 5e-3);
     CHECK(values(1) == Approx(1).epsilon(5e-3));
   }
-  // A geometrically exact beam gives 3.04 and 6.38.
+  // A geometrically exact beam has 3.04 and 6.38.
   CHECK(tension_quotient(4.7300407448627) == Approx(3.04).margin(0.01));
   CHECK(tension_quotient(7.8532046240958) == Approx(6.38).margin(0.06));
 }
@@ -112,7 +112,7 @@ TEST_CASE("A rotating cantilever's flap and lag frequencies are those of Wright 
   const test::ReferenceTable exact("rotating_beam");
   const double at_rest = lowest(0, false)(0) / exact("0.flap_1");  // shear takes 3e-4, the mesh adds 1e-3
   CHECK(at_rest == Approx(1).epsilon(2e-3));
-  // The two bending planes: flap is the higher of each pair once lag is softened.
+  // These are the two bending planes: flap is the higher frequency of each pair, because lag is softened.
   for (const int eta : {1, 3, 6}) {
     const double flap = exact(std::to_string(eta) + ".flap_1"), second = exact(std::to_string(eta) + ".flap_2");
     const Eigen::VectorXd found = lowest(eta, false);
@@ -122,7 +122,7 @@ TEST_CASE("A rotating cantilever's flap and lag frequencies are those of Wright 
     CHECK(lagging(0) == Approx(std::sqrt(flap * flap - eta * eta)).epsilon(3e-3));
     CHECK(lagging(1) == Approx(flap).epsilon(3e-3));
   }
-  // The tension matters: without it flap does not feel the spin, and lag loses its stiffness at eta = mu1.
+  // The tension matters: without it flap does not depend on the spin, and lag loses its stiffness at eta = mu1.
   CHECK(lowest(3, false, false)(0) == Approx(exact("0.flap_1")).epsilon(2e-3));
   CHECK(lowest(3, true, false)(0) == Approx(std::sqrt(std::pow(exact("0.flap_1"), 2) - 9)).epsilon(1e-2));
 }

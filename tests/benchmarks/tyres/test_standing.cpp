@@ -116,7 +116,7 @@ TEST_CASE("a standing tyre never has more than its friction, slides by Coulomb's
     const auto slid = [&] { return session.node("hub").x.x() + force_of(session).x() / K.x(); };
     while (motion.step()) {
       const double F = force_of(session).norm(), t = session.time(), v = session.node("hub").v.x();
-      CHECK(F <= most * (1 + 1e-7));  // a step overshoots the beginning of the slip
+      CHECK(F <= most * (1 + 1e-7));  // a step ends beyond the beginning of the slip
       CHECK(motion.energy().dissipation >= dissipated - 1e-9);
       dissipated = motion.energy().dissipation;
       if (std::abs(t - 0.3) < 1e-6) speed = v;
@@ -126,7 +126,7 @@ TEST_CASE("a standing tyre never has more than its friction, slides by Coulomb's
     CHECK(std::abs(session.balance()) < 2e-3 * dissipated);
     CHECK(rest > 0.5);
     if (damping == ", damping: 0") {
-      // It swings on its tread by up to 8 mm, and does not move on.
+      // The wheel oscillates on its tread by up to 8 mm, and does not move on.
       CHECK(std::abs(slid() - rest) < 2e-6);
     } else {
       CHECK(session.node("hub").v.norm() < 1e-2 * most / std::sqrt(K.x() * m));
@@ -141,7 +141,7 @@ TEST_CASE(
   constexpr double amplitude = 0.3, F = 16, C_y = 3e3, period = 1;
   std::string text = standing(fmt::format("0, {}", F), "");
   text.replace(text.find("fixed: [z, rx, ry, rz]"), 22, "motion: {x: '0.3*sin(2*pi*t)'}, fixed: [z, rx, rz]");
-  // It rolls freely, and its inertia across is small: 0.2 kg need 0.01 N.
+  // The wheel rolls freely, and its inertia across is small: 0.2 kg need 0.01 N.
   text.replace(text.find("mass: 20, inertia: [1, 1, 1]"), 28, "mass: 0.2, inertia: [1, 1e-3, 1]");
   std::vector<double> y;
   move(text, 1e-3, 4 * period, [&](const Session& session) {

@@ -124,7 +124,7 @@ TEST_CASE("a braked wheel slides down a slope that is too steep with the acceler
 }
 
 TEST_CASE("a wheel that is lifted off loses the force along the road") {
-  // It is pushed along x while it stands, and then pulled up.
+  // A force pushes the wheel along x while it stands, and then lifts it.
   move(block("[0, 0, -9.81]", 0.5 - m * g / k, "stiffness: 2e4, damping: 100, " + tread) +
            "loads: {push: {node: hub, force: [60, 0, \"if(t < 1, 0, 400*(t - 1))\"]}}\n",
        1e-3, 2, [&](const Session& session) {

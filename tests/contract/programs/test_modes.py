@@ -37,7 +37,7 @@ class Modes(CommandTest):
 
     def test_a_state_at_rest_that_does_not_stay_is_told(self):
         text = self.summary(PENDULUM.format(x=1, z=0, analysis=EIGEN))
-        self.assertIn("the state is at rest but no equilibrium: moment y at node 'rod'", text)
+        self.assertIn("the state is at rest but not in equilibrium: the residual of moment y at node 'rod'", text)
 
     def test_the_state_and_earlier_results_stay(self):
         text = self.summary(PENDULUM.format(x=0, z=-1, analysis="[{type: dynamic, duration: 0.1, step: 0.01}, {type: eigen}, "

@@ -145,11 +145,11 @@ class SelfJudgement(CommandTest):
 
         text = self.summary(with_rotor(1e-3, 0.6, "", 'drives: {d: {joint: h, rate: "10"}}\n'))
         self.assertIn(" of what flowed through (", text)
-        self.assertIn("warning: so large errors in the balance", text)
+        self.assertIn("warning: such large errors in the balance", text)
         # .. and next to a heavy flywheel its dissipation is hardly known.
         text = self.summary(with_rotor(10, 0.02, ", angular_velocity: [0, 0, 50]", ""))
         self.assertIn(" of the largest energy (", text)
-        self.assertRegex(text, r"\n  that is 0\.\d+ of the \S+ J that went in or were dissipated: these are not known better\n")
+        self.assertRegex(text, r"\n  that is 0\.\d+ of the \S+ J that went in or were dissipated: these are not known more accurately\n")
 
     def test_dissipation_of_the_scheme_is_told_from_errors_of_the_steps(self):
         def parts(model):

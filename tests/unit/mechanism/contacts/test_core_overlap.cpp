@@ -71,7 +71,7 @@ TEST_CASE("the overlap of cores is the shortest way that parts them") {
     REQUIRE(overlap.has_value() == (expected > 0));
     if (!overlap) continue;
     ++overlapping;
-    // The search stops within some 1e-8 rad of the best direction.
+    // The search stops within about 1e-8 rad of the best direction.
     CHECK_THAT(overlap->depth, Catch::WithinAbs(expected, 1e-6));
     CHECK_THAT(a.support(overlap->normal) + b.support(overlap->normal) - overlap->normal.dot(b.x - a.x),
                Catch::WithinAbs(overlap->depth, 1e-12));

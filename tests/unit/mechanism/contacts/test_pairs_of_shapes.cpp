@@ -154,7 +154,8 @@ TEST_CASE("gaps of any two shapes are the distances of their surfaces, with the 
         const double gap = -found.depth;
         CHECK(gap > expected - 1e-5);
         CHECK(gap < expected + domes + 1e-9);
-        // The surfaces lie half the gap to either side of the place along the normal, and a skin away from their cores.
+        // The surfaces lie at half the gap to either side of the place along the normal, and at the skin's thickness
+        // from their cores.
         const Vector3 half = (first ? 0.5 : -0.5) * gap * value_of(found.normal), place = value_of(found.place);
         CHECK_THAT(from_core(*a, place - half), Catch::WithinAbs(a->skin(), domes + 1e-5));
         CHECK_THAT(from_core(*b, A.transpose() * (place + half - x)), Catch::WithinAbs(b->skin(), domes + 1e-5));

@@ -37,7 +37,7 @@ TEST_CASE("all around a sharp ridge a point is outside, whatever the order of th
     const TriangleSurface surface(corners);
     CHECK(surface.flipped_edges() == 0);
     CHECK(surface.open_edges() == 6);  // three at either end
-    // The direction changes from the normal of one flank over the top to that of the other.
+    // The direction changes from the normal of one flank, over the top, to that of the other.
     for (double angle = -109; angle <= 109; angle += 1) {
       const double a = angle * M_PI / 180;
       const Vector3 point = 0.01 * Vector3(std::sin(a), 0, std::cos(a)) + Vector3(0, 0.3, 0);
@@ -46,7 +46,7 @@ TEST_CASE("all around a sharp ridge a point is outside, whatever the order of th
       CAPTURE(angle);
       REQUIRE(places.size() == 1);
       CHECK((point - places.front().foot).dot(places.front().normal) > 0);
-      // Inside, below the ridge.
+      // The point is inside, below the ridge.
       places.clear();
       surface.find_nearest({0.002 * std::sin(a), 0.3, -0.02}, 0.02, places);
       for (const auto& place : places)

@@ -181,7 +181,7 @@ TEST_CASE("a cable runs over its pulley from point to point") {
   const DrawnItem& course = drawn.one("joints/it", "course");
   CHECK_FALSE(value_of<bool>(course, "closed"));
   CHECK(course.pulleys[0].radius == 0);
-  // up by 2 m, half round the pulley over its top, down by 1 m
+  // the rope rises by 2 m, turns half round the pulley over its top, and goes down by 1 m
   CHECK(length_of_course(drawn, course) == Approx(2 + 0.1 * pi + 1).epsilon(1e-12));
   CHECK(drawn.all("joints/it", "pulley").size() == 1);
 }

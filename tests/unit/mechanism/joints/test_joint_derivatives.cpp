@@ -226,7 +226,7 @@ TEST_CASE("the reaction is what the joint does to its second node, about the att
     const Vector6 reaction = joint->calc_reaction(local);
     CHECK((axes * reaction.head<3>() - force).norm() < 1e-13);
     CHECK((axes * reaction.tail<3>() - moment).norm() < 1e-13);
-    // Action and reaction: no force and no moment on both nodes together.
+    // Action equals reaction: there is no resultant force and no resultant moment on both nodes together.
     CHECK((r.segment<3>(0) + r.segment<3>(6)).norm() < 1e-13);
     const Vector3 moments = first.R * r.segment<3>(3) + second.R * r.segment<3>(9) +
                             first.x.cross(Vector3(r.segment<3>(0))) + second.x.cross(Vector3(r.segment<3>(6)));

@@ -219,7 +219,7 @@ TEST_CASE("coefficients over the speed of the shaft are those of matrices betwee
                   v = (Vector6() << 0.2, 3, -1, 0.4, 0.1, 150).finished();
     CHECK((film.calc(e, v).N - at_150.calc(e, v).N).norm() < 1e-13);
     CHECK((film.calc(e, v).by_e - at_150.calc(e, v).by_e).norm() < 1e-13);
-    // Beyond the table its last row holds.
+    // Beyond the table its last row is used.
     Vector6 faster = v;
     faster[5] = 1000;
     CHECK(film.calc(e, faster).by_v.col(5).isZero(0));

@@ -296,7 +296,7 @@ TEST_CASE("what chatters is told so") {
   Session session(model);
   Motion motion = session.dynamics(steps_of(1, 0.01));
   const std::string message = message_of<ComputationError>([&] { motion.finish(); });
-  CHECK_THAT(message, Contains("element 'relay': the velocity's change of sign is met again and again"));
+  CHECK_THAT(message, Contains("element 'relay': the velocity's change of sign occurs again and again"));
   CHECK_THAT(message, Contains("hysteresis"));
   // It stands where the velocity has come to zero.
   const double a = 4 / (500.0 * sphere(0.1)).mass;

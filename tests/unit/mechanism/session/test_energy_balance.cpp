@@ -37,7 +37,7 @@ TEST_CASE("small errors of a steady machine do not add up to a large one, and a 
     CHECK(energy_balance.through() == Approx(10000));
     CHECK(energy_balance.balance() == Approx(-0.1 - lost));
     CHECK(std::abs(energy_balance.balance()) / energy_balance.through() < 1e-4);
-    if (lost == 0) CHECK(relative_error(energy_balance) == Approx(1e-5).epsilon(0.2));  // a turnover takes 0.1 s
+    if (lost == 0) CHECK(relative_error(energy_balance) == Approx(1e-5).epsilon(0.2));  // a turn takes 0.1 s
     if (lost > 0) CHECK(relative_error(energy_balance) == Approx(0.5).epsilon(0.1));
   }
 }

@@ -44,7 +44,7 @@ TEST_CASE("an assembly moves the parts together and makes the velocities fit") {
   const StartReport start = session.assemble();
   CHECK(start.largest_displacement < 1e-12);
   CHECK(start.velocity_change > 1);
-  // The elbow of both arms moves alike.
+  // The elbows of both arms move alike.
   const NodeState &upper = session.node("upper"), &lower = session.node("lower");
   const Vector3 of_upper = upper.v + upper.R * upper.Omega.cross(Vector3(0.5, 0, 0)),
                 of_lower = lower.v + lower.R * lower.Omega.cross(Vector3(-0.5, 0, 0));
@@ -52,7 +52,7 @@ TEST_CASE("an assembly moves the parts together and makes the velocities fit") {
 }
 
 TEST_CASE("statics end in equilibrium, and what is read is under their load factor") {
-  // A bar that hangs from a spring: the force of the spring is its weight.
+  // A bar hangs from a spring, whose force is its weight.
   const std::string text = R"yaml(
 gravity: [0, 0, -10]
 nodes: {bar: {position: [0, 0, -1], fixed: [x, y, rx, ry, rz]}}

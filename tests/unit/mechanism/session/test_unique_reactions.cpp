@@ -40,7 +40,7 @@ TEST_CASE("results and summaries name the joints whose reactions are not unique"
   CHECK(unique("upper") == std::vector{0.0});
   CHECK(unique("lower") == std::vector{0.0});
   CHECK(unique("pin") == std::vector{1.0});
-  // Half of the weight each, and not all of it on the hinge that was written first.
+  // Each hinge carries half of the weight, and the first one in the file does not carry all of it.
   const std::vector<double> upper = results.read("/analysis_1/joints/upper/reaction"),
                             lower = results.read("/analysis_1/joints/lower/reaction");
   CHECK_THAT(upper[2], Catch::WithinRel(lower[2], 1e-8));

@@ -125,7 +125,7 @@ TEST_CASE("a ball that comes near gets its entries, and they stay while it is ne
     dq[13] = y - 3;
     system.displace(moved, start, dq);
   };
-  third_at(0.11);  // near, and not in contact
+  third_at(0.11);  // near, but not in contact
   tangent(moved);
   CHECK(system.shared_pattern() == before);
   third_at(0.099);

@@ -72,7 +72,7 @@ struct Mixed {
     const auto node = [&](const char* name) { return *model.find_node(name); };
     const auto joint = [&](const char* name) -> Component& { return *model.components_of({Section::joints, name})[0]; };
     auto first = std::make_unique<StateMixer>("first", std::vector{node("a")}, std::vector<const Component*>{});
-    StateMixer& mixed = *first;  // stands before what it refers to
+    StateMixer& mixed = *first;  // in the order before the components to which it refers
     model.add(std::move(first), Entry{Section::elements, "first"}, Recorded::no);
     scalar = &model.add(std::make_unique<ScalarAmplitude>("scalar", Declaration::Scalar{"q", "m"},
                                                           ScalarAmplitude::Law{2, 0.3, 5, 0.7, 1}),
@@ -229,7 +229,7 @@ TEST_CASE("constraints of others and derivatives of forces by multipliers come e
     const MatrixX alone = dense(system, values);
     CHECK(alone.topLeftCorner(n, n).isZero(0));
     CHECK(distance(alone.topRightCorner(n, m), alone.bottomLeftCorner(m, n).transpose()) < 1e-14);
-    // There are no other terms than the derivatives by multipliers less those of the forces.
+    // The only other terms are the derivatives by multipliers less those of the forces.
     CHECK(distance(alone.topRightCorner(n, m), by_multipliers - forces.topRightCorner(n, m)) < accurate);
     // With `reactions` they count in full with any stiffness.
     TangentWeights weights{0, 0, 1, 1, 1, true};

@@ -63,7 +63,7 @@ TEST_CASE("axes around a line: fibres along axis 1 go round it, or along it, as 
   const auto modulus = [](const Material& of, const Eigen::Vector3d& place, int axis) {
     return 1 / Matrix6(of.elasticity_at(place).inverse())(axis, axis);
   };
-  CHECK(modulus(hoop, {3, 0, 5}, 1) == Approx(140e9).epsilon(1e-12));  // around the line is y there
+  CHECK(modulus(hoop, {3, 0, 5}, 1) == Approx(140e9).epsilon(1e-12));  // the direction around the line is y there
   CHECK(modulus(hoop, {3, 0, 5}, 2) == Approx(10e9).epsilon(1e-12));   // axis 2 along it
   CHECK(modulus(hoop, {3, 0, 5}, 0) == Approx(9e9).epsilon(1e-12));
   CHECK(modulus(hoop, {1, -2, 0}, 0) == Approx(140e9).epsilon(1e-12));

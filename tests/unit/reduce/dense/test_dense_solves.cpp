@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Well-conditioned, and in need of row exchanges.
+/// The matrix is well-conditioned, and requires row exchanges.
 MatrixXd general_matrix(Eigen::Index n) {
   MatrixXd A(n, n);
   for (Eigen::Index i = 0; i < n; ++i)

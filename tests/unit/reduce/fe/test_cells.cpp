@@ -186,7 +186,7 @@ TEST_CASE("Plain and reduced integration: hex8 and wedge6 are stiffer, hex20 has
     CAPTURE(cell_name(type));
     const Eigen::VectorXd standard = values(type, Integration::standard), plain = values(type, Integration::plain);
     CHECK((values(type, Integration::reduced) - standard).norm() < 1e-12);
-    CHECK((plain - standard).minCoeff() > -1e-12);  // internal modes only take stiffness away
+    CHECK((plain - standard).minCoeff() > -1e-12);  // internal modes only reduce the stiffness
     CHECK(plain.sum() > 1.05 * standard.sum());
   }
   const Eigen::VectorXd standard = values(CellType::hex20, Integration::standard),

@@ -59,7 +59,7 @@ TEST_CASE("Of reduced matrices with scalars the rigid part and the stretching of
   for (int k = 0; k < 6; ++k) set.unknowns[static_cast<std::size_t>(6 + k)] = {-1, k};
   const Superelement body = test::reduced(set, {});
   for (int k = 0; k < 3; ++k) CHECK(spin_energy(body, Eigen::Vector3d::Unit(k)) == Approx(body.inertia(k, k) / 2));
-  // Momentum of any motion along k: the row of M~ with the translation along k.
+  // The momentum of any motion along k is the row of M~ with the translation along k.
   const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
   CHECK((moments(body, 0).col(0) - body.mass * rigid.col(0)).norm() < 1e-9);
   CHECK((moments(body, 1).col(1) - body.mass * rigid.col(1)).norm() < 1e-9);

@@ -167,7 +167,8 @@ TEST_CASE("A direction that an interface releases stays inside, also along axes 
   const Superelement body = test::reduced(test::beam_set(), options);
   REQUIRE(body.interface_directions() == 11);
   CHECK(body.modes() == 1);
-  // Deflected along its own y by w, the beam is a cantilever there: force 3 EI w / L^3, EI that of the turned plane.
+  // Deflected along its own y by w, the beam is a cantilever in this plane: the force is 3 EI w / L^3, with EI of the
+  // turned plane.
   const double s = std::sin(0.7), c = std::cos(0.7), EIz = 3e4, EIy = 2e4;
   // The hinge releases rotation about z' alone; condensation of one rotation: k_yy - k_yr^2 / k_rr in turned axes.
   const double EI1 = c * c * EIz + s * s * EIy, L = 2;

@@ -117,7 +117,7 @@ TEST_CASE("parts that hang together by an edge or a node only give a warning") {
   CHECK_NOTHROW(check_elements(mesh, {}));
   CHECK_NOTHROW(check_connected(mesh));
   CHECK_THAT(loose_joints(mesh, FaceTable(mesh)),
-             StartsWith("2 parts of the body hang together by single nodes or edges only, about which they can turn: "
+             StartsWith("2 parts of the body are connected by single nodes or edges only, about which they can turn: "
                         "1 element with 0.167 m^3 from"));
   CHECK(
       loose_joints(box_mesh({{1, 1, 1}, {2, 2, 2}, true}), FaceTable(box_mesh({{1, 1, 1}, {2, 2, 2}, true}))).empty());

@@ -110,6 +110,6 @@ TEST_CASE("planes that cannot cut the body say why") {
              Contains("pieces.far: 'far' does not cut the body, which lies between -1.5 m and -0.5 m"));
   // The end face is no cut.
   CHECK_THAT(message({across("end", 1)}), Contains("does not cut the body"));
-  // Two planes in one layer of cells leave no piece between them.
+  // Two planes in one layer of cells have no piece between them.
   CHECK_THAT(message({across("cut_1", 0.5), across("cut_2", 0.502)}), Contains("less than an element apart"));
 }

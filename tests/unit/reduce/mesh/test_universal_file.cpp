@@ -28,7 +28,7 @@ const std::array<Point, 4> own = {Point{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0
 
 std::string numbers(const Point& x) { return fmt::format("{:25.16E}{:25.16E}{:25.16E}\n", x[0], x[1], x[2]); }
 
-/// @param system  kind of the system; its axes and origin as four rows
+/// @param system  kind of the system, and its axes and origin as four rows
 std::string tetrahedron(const std::string& units, int kind, const std::array<Point, 4>& system,
                         const std::array<Point, 4>& nodes, int number = 7) {
   std::string text = units;

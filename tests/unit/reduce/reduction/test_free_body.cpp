@@ -53,7 +53,7 @@ TEST_CASE("A beam that spins about a transverse axis is stretched by N = rho A (
   CHECK(body.spin_stiffness[2](8, 8) == Approx(expected).epsilon(3e-3));  // about z, bending along z
   CHECK(body.spin_stiffness[2](7, 7) == Approx(expected).epsilon(3e-3));
   CHECK(body.spin_stiffness[1](7, 7) == Approx(expected).epsilon(3e-3));
-  CHECK(std::abs(body.spin_stiffness[0](7, 7)) < 1e-2 * expected);  // about its own axis: next to nothing
+  CHECK(std::abs(body.spin_stiffness[0](7, 7)) < 1e-2 * expected);  // about its own axis: nearly nothing
 }
 
 TEST_CASE("A slack arm between surface and interface node counts as the pendulum that it is") {
@@ -95,7 +95,7 @@ TEST_CASE("The elastic energy to third order does not depend on the frame, whate
   };
   CHECK(objectivity() >= 0);
   CHECK(objectivity() < 1e-10);  // the factorisation's rounding
-  // A tenth of one matrix more must be detected.
+  // An error of a tenth of one matrix must be detected.
   body.load_stiffness[7] *= 1.1;
   CHECK(objectivity() > 1e-4);
 }

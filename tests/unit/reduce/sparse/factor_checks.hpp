@@ -57,7 +57,7 @@ inline void check_solutions(const FactorKind& kind) {
         REQUIRE(x.rows() == a.size);
         REQUIRE(x.cols() == columns);
         CHECK((x - exact.leftCols(columns)).norm() < tolerance * exact.leftCols(columns).norm());
-        CHECK(factor->solve(b.leftCols(columns)) == x);  // used again, it gives the same
+        CHECK(factor->solve(b.leftCols(columns)) == x);  // a second use gives the same factor
         if (columns == 40) with_threads.push_back(x);
       }
     }
@@ -199,7 +199,7 @@ inline void check_signs_with_a_border(const FactorKind& kind) {
   }
 }
 
-/// A shift at an eigenvalue leaves one whose sign cannot be determined.
+/// A shift at an eigenvalue causes a pivot whose sign cannot be determined.
 inline void check_lost_signs(const FactorKind& kind) {
   if (!kind.counts_signs) return;
   CAPTURE(kind.name);

@@ -154,7 +154,7 @@ TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
     CHECK(chosen.method == (count < 50 ? "ARPACK" : "block Lanczos"));
   }
   CHECK_THROWS_WITH(shift_invert_eigenpairs(pencil.problem(), 50, by_arpack()), Catch::Contains("block_lanczos"));
-  // More are requested than exist: all are found.
+  // More eigenvalues are requested than exist: all are found.
   CHECK(difference(block_values(pencil.problem(), 70, with_block(8)), exact) < 1e-10);
   CHECK(
       block_values({150, 0, pencil.problem().solve, [](const MatrixXd& x) { return MatrixXd(0 * x); }}, 3, {}).size() ==
@@ -175,7 +175,7 @@ TEST_CASE("block Lanczos: problems smaller than a block, and all of their eigenv
 
 TEST_CASE("block Lanczos: restarts change nothing", "[spectral]") {
   VectorXd springs = VectorXd::LinSpaced(401, 1, 2);
-  // From a distant shift all eigenvalues look alike.
+  // From a distant shift all eigenvalues appear alike.
   const DensePencil pencil{test::chain_of_springs(springs), MatrixXd::Identity(400, 400), -2};
   const VectorXd exact = pencil.values().head(12);
   for (const int block : {1, 3, 8}) {

@@ -47,12 +47,13 @@ TEST_CASE("flapping of a flat plate in the wind is damped by rho c V a l^3/6") {
   Session session = session_of(flapping_blade("lift: \"2*pi*alpha\""));
   Motion motion = session.dynamics(steps_of(1, 0.005));
   motion.finish();
-  // The speed of flapping falls as exp(-D t/J); the wind along the chord turns with the blade by cos(angle), some 1e-5.
+  // The rate of flapping decays as exp(-D t/J); the wind along the chord turns with the blade by cos(angle), about
+  // 1e-5.
   CHECK(session.read("measures/speed")[0] == Approx(0.02 * std::exp(-damping / inertia)).epsilon(1e-5));
 }
 
 TEST_CASE("a blade at an angle has the lift, drag and moment of its strips, and follows tables of alpha") {
-  // Twist -0.1 rad: alpha = 0.1. At rest, held at its root.
+  // A twist of -0.1 rad gives alpha = 0.1. The blade is at rest and held at its root.
   const std::string text = R"yaml(
 nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: [2, 0, 0]}}
 elements:
@@ -69,7 +70,7 @@ measures: {up: tip.position.z, back: tip.position.y, turn: tip.rotation.x}
   compute_statics(session);
   const double q = 0.5 * rho * chord * wind * wind, lift = q * 0.5, drag = q * (0.02 + 0.01),
                nose_up = q * chord * 0.05, bending = std::pow(length, 4) / (8 * 1e7);
-  // The section turns by about nose_up l^2/(2 GJ), some 1e-6 of its angle.
+  // The section turns by about nose_up l^2/(2 GJ), which is about 1e-6 of its angle.
   CHECK(session.read("measures/up")[0] == Approx(lift * bending).epsilon(1e-3));
   CHECK(session.read("measures/back")[0] == Approx(drag * bending).epsilon(1e-3));
   CHECK(session.read("measures/turn")[0] == Approx(-nose_up * length * length / (2 * 2e4)).epsilon(1e-3));
@@ -127,7 +128,8 @@ constexpr double pitch_inertia = 0.05 + 0.01 * length;
 }  // namespace
 
 TEST_CASE("pitching about the quarter chord is damped by pi/16 rho c^3 V") {
-  // J w' = -pi/16 rho c^3 V l w (Fung 1955, section 6.10). Lift has no moment about the axis.
+  // The damping of the turn is J w' = -pi/16 rho c^3 V l w (Fung 1955, section 6.10). Lift has no moment about the
+  // axis.
   const double D = M_PI / 16 * rho * std::pow(chord, 3) * wind * length;
   Session session = session_of(pitching_blade(0, -1e-3, ""));
   session.dynamics(steps_of(1, 0.005)).finish();
@@ -144,10 +146,10 @@ TEST_CASE("a plate that pitches about its leading edge has the lift of the angle
   const double damping = (q * e * (e + chord / 2) / wind + D) / pitch_inertia, w2 = q * e / pitch_inertia;
   const double decay = damping / 2, w = std::sqrt(w2 - decay * decay), t = 0.3;
   REQUIRE(w2 > decay * decay);
-  Session session = session_of(pitching_blade(e, -1e-3, ""));  // nose up is a negative turn about x
+  Session session = session_of(pitching_blade(e, -1e-3, ""));  // a nose-up rotation is a negative turn about x
   session.dynamics(steps_of(t, 0.0005)).finish();
   const double beta = 1e-3 * std::exp(-decay * t) * std::sin(w * t) / w;
   CHECK(std::abs(beta) > 1e-5);
-  // A section that is softer by 100 changes the angle by 4e-4, through bending.
+  // A section that is softer by a factor of 100 changes the angle by 4e-4, by bending.
   CHECK(-session.read("measures/beta")[0] == Approx(beta).epsilon(1e-4));
 }

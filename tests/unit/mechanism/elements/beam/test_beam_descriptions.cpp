@@ -18,7 +18,7 @@ using bielle::test::StaticModel;
 
 namespace {
 
-/// A rectangle with all that may vary along a beam.
+/// A rectangle with all quantities that may vary along a beam.
 struct Section {
   Eigen::Vector2d size, offset, factors, point;
   double young, density;
@@ -126,7 +126,7 @@ VectorX signature(const std::string& elements, const std::vector<std::size_t>& s
   return all;
 }
 
-/// All numbers are of order one; elasticity of 100 against loads of 0.1 leaves rounding of some 1e-12.
+/// All numbers are of order one; an elasticity of 100 against loads of 0.1 causes rounding errors of about 1e-12.
 double difference(const VectorX& a, const VectorX& b) {
   return ((a - b).array() / (1 + a.array().abs())).abs().maxCoeff();
 }

@@ -76,7 +76,7 @@ TEST_CASE("a deformed element has the forces that are the derivatives of its ene
 TEST_CASE("the residual bending flexibility softens the shear of the section") {
   const Frame B = exp_se3(check_coordinates());
   const OneElement element({}, B, straight, section_of(one_to_six), BeamBending::residual);
-  // 1/2 + 1/(12*6) and 1/3 + 1/(12*5): shear along y goes with bending about z and the other way round.
+  // 1/2 + 1/(12*6) and 1/3 + 1/(12*5): shear along y belongs to bending about z, and vice versa.
   Vector6 eps = check_coordinates() - straight;
   Matrix6 C = one_to_six;
   C(1, 1) = 72.0 / 37;
@@ -133,7 +133,7 @@ TEST_CASE("a straight element has the exact stiffness of a Timoshenko beam for a
       return Matrix6(moment_arm.transpose() * C.inverse() * moment_arm);
     };
     const Matrix6 F = L / 6 * (flexibility(0) + 4 * flexibility(L / 2) + flexibility(L));
-    // Both in the axes of the section.
+    // Both are in the axes of the section.
     MatrixX turn = MatrixX::Identity(12, 12);
     turn.block<3, 3>(0, 0) = turn.block<3, 3>(6, 6) = A.R.transpose();
     const MatrixX K = turn * element.stiffness() * turn.transpose();
@@ -162,7 +162,7 @@ TEST_CASE("strain and resultants are recorded in the section frame, the physical
     slots.nodes = {1, 2};
     slots.memories = 3;
     element.model.members()[0].component->write_output({element.state, slots, element.model.environment}, out.data());
-    // Constant strain is the element's own; the residual flexibility takes its part out of the shears.
+    // Constant strain is the element's own law; the residual flexibility subtracts its part from the shears.
     if (bending == BeamBending::constant) CHECK(error(out.head<6>(), eps) < 1e-14);
     CHECK(error(out.tail<6>(), C * out.head<6>()) < 1e-13);
   }
@@ -180,13 +180,13 @@ TEST_CASE("an element whose ends turn too far refuses with the advice to refine"
     element.model.members()[0].component->accept({element.state, slots, element.model.environment}, memory);
   };
   element.state.time = 0.25;
-  CHECK_NOTHROW(element.force());  // an iteration may come near
+  CHECK_NOTHROW(element.force());  // an iteration may come close to it
   CHECK_NOTHROW(accept(170));
   CHECK_THROWS_WITH(accept(175),
                     "t = 0.25 s: beam 'shaft', element 2 of 5: its ends are turned by 175 degrees against each other, "
                     "and one element "
                     "follows up to 171: give the beam more `elements`");
-  // From 170 over 180 to 190: the logarithm is -170.
+  // The angle goes from 170 over 180 to 190 degrees: the logarithm is -170.
   element.state.memory = memory;
   element.state.nodes[2].R = turned(190);
   CHECK_THROWS_AS(element.force(), bielle::ComputationError);
@@ -194,7 +194,7 @@ TEST_CASE("an element whose ends turn too far refuses with the advice to refine"
       element.stiffness(),
       "t = 0.25 s: beam 'shaft', element 2 of 5: its ends have turned past 180 degrees against each other, and one "
       "element follows up to 171: give the beam more `elements`, or take smaller steps");
-  // In statics the load factor takes the place of the time.
+  // In statics the load factor is used instead of the time.
   element.dense->environment.statics = true;
   element.dense->environment.load_factor = 0.5;
   CHECK_THROWS_WITH(element.stiffness(), Catch::StartsWith("load factor 0.5: beam 'shaft', element 2 of 5: "));

@@ -42,7 +42,7 @@ std::unique_ptr<Model> unit_beam(int elements, const std::string& section, const
       std::to_string(elements) + ", section: {" + section + "}" + more + "}\n");
 }
 
-/// Unknowns `directions` of nodes 1 .. count, without `held`.
+/// Returns the unknowns `directions` of nodes 1 .. count, without `held`.
 std::vector<int> unknowns(int count, const std::vector<int>& directions, const std::vector<int>& held) {
   std::vector<int> free;
   for (int node = 1; node <= count; ++node)
@@ -67,7 +67,7 @@ MatrixX orders(const MatrixX& errors) {
   return (errors.topRows(3).array() / errors.bottomRows(3).array()).abs().log() / std::log(2);
 }
 
-/// Bending in the plane x-y: held are y at both ends and x at one, or all at one end.
+/// The bending is in the plane x-y. Either y at both ends and x at one are held, or all at one end.
 const std::vector<int> pinned{6, 7, 13}, clamped{6, 7, 11};
 
 VectorX plane_frequencies(int elements, const std::string& section, const std::vector<int>& held,
@@ -97,14 +97,15 @@ Vector3 steel_bar(const std::string& ends) {
 }  // namespace
 
 TEST_CASE("bending frequencies of slender beams converge with the fourth power of the element length") {
-  // Radius of gyration 1e-4 of the length: shear and rotary inertia matter for 1e-6 of the frequency at most.
+  // The radius of gyration is 1e-4 of the length: shear and rotary inertia change the frequency by 1e-6 at most.
   const std::string slender =
       "EA: 1e8, GAy: 3e7, GAz: 3e7, GJ: 1, EIy: 1, EIz: 1, mass_per_length: 1, Jx: 2e-8, Jy: 1e-8, Jz: 1e-8";
   const MatrixX errors =
       error_table(pinned_timoshenko(1, 3e7, 1, 1e-8), [&](int n) { return plane_frequencies(n, slender, pinned); });
   CAPTURE(errors, orders(errors));
   CHECK(orders(errors).topRows(2).minCoeff() > 3.7);
-  CHECK(orders(errors).rightCols(2).bottomRows(2).minCoeff() > 3.9);  // the first mode reaches rounding at 64 elements
+  // The error of the first mode reaches rounding at 64 elements.
+  CHECK(orders(errors).rightCols(2).bottomRows(2).minCoeff() > 3.9);
   CHECK(orders(errors).topRows(2).maxCoeff() < 4.1);
 }
 
@@ -129,7 +130,7 @@ TEST_CASE("bending frequencies of a steel bar are those of Timoshenko's theory")
   CHECK(errors(0, 1) < 8.75e-4);
   CHECK(errors(0, 2) < 4.25e-3);
 
-  // Clamped; an independent program at 8 elements: 7.1e-6, 2.7e-4, 2.1e-3.
+  // The beam is clamped; an independent program has 7.1e-6, 2.7e-4, 2.1e-3 at 8 elements.
   errors = error_table(steel_bar("clamped"), [](int n) { return plane_frequencies(n, steel, clamped); });
   CAPTURE(errors);
   CHECK(errors(0, 0) < 7.5e-6);
@@ -160,7 +161,7 @@ TEST_CASE("constant strain leaves bending frequencies at the second power") {
       error_table(exact, [](int n) { return plane_frequencies(n, steel, pinned, ", bending: constant"); });
   CAPTURE(errors, orders(errors));
   CHECK((orders(errors).array() - 2).abs().maxCoeff() < 0.15);
-  // An independent program with lumped rotary inertia: 6.5e-3 2.6e-2 6.0e-2.
+  // An independent program with lumped rotary inertia has 6.5e-3 2.6e-2 6.0e-2.
   CHECK_THAT(errors(0, 0), Catch::WithinAbs(6.5e-3, 0.1e-3));
   CHECK_THAT(errors(0, 1), Catch::WithinAbs(2.6e-2, 0.1e-2));
   CHECK_THAT(errors(0, 2), Catch::WithinAbs(6.0e-2, 0.2e-2));
@@ -191,7 +192,8 @@ TEST_CASE("mass, centre and inertia of a beam") {
 }
 
 TEST_CASE("a beam of unsymmetric section turns like the solids that it is made of") {
-  // An l of legs 0.5 x 0.1 along y and 0.1 x 0.3 along z on top of it; its centroid stands on the line of the nodes.
+  // The section is an l with legs 0.5 x 0.1 along y and 0.1 x 0.3 along z on top of it; its centroid lies on the line
+  // of the nodes.
   const double A = 0.05 + 0.03, y = (0.05 * 0.25 + 0.03 * 0.05) / A, z = (0.05 * 0.05 + 0.03 * 0.25) / A;
   const MassProperties leg_y = placed({Vector3(0.5, 0.25 - y, 0.05 - z), Matrix3::Identity()}, box({1, 0.5, 0.1})),
                        leg_z = placed({Vector3(0.5, 0.05 - y, 0.25 - z), Matrix3::Identity()}, box({1, 0.1, 0.3}));
@@ -272,7 +274,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the polar inertia of a quarter circle converges with the fourth power of the element length") {
-  // m R^2 (pi/2) about its centre for a line of mass m per length; rotary inertia 1e-12 of it.
+  // The inertia is m R^2 (pi/2) about its centre for a line of mass m per length; rotary inertia is 1e-12 of it.
   std::vector<double> errors;
   for (int elements : {2, 4, 8, 16}) {
     const auto model = model_from_text(
@@ -291,7 +293,8 @@ TEST_CASE("the polar inertia of a quarter circle converges with the fourth power
     errors.push_back(2 * dense.energy(state).kinetic / (pi / 2) - 1);
   }
   CAPTURE(errors);
-  // An independent program (without the mass m L/12, which is felt at sixth order): -2.1e-3 -1.3e-4 -8.2e-6 -5.2e-7.
+  // An independent program (without the mass m L/12, which changes the sixth order) has -2.1e-3 -1.3e-4 -8.2e-6
+  // -5.2e-7.
   CHECK_THAT(errors[1], Catch::WithinAbs(-1.3e-4, 0.06e-4));
   CHECK_THAT(errors[2], Catch::WithinAbs(-8.2e-6, 0.06e-6));
   CHECK_THAT(errors[3], Catch::WithinAbs(-5.2e-7, 0.06e-7));

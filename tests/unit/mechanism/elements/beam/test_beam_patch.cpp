@@ -46,7 +46,7 @@ double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, cons
               Entry{Section::elements, "patch"}, Recorded::stacked);
   const DenseModel dense(model);
   const VectorX r = dense.residual(dense.start());
-  double error = (r.segment<6>(6 * nodes.front()) + f).norm();  // the cut at the start, whose frame is the inertial one
+  double error = (r.segment<6>(6 * nodes.front()) + f).norm();  // the section at the start has inertial axes
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) error = std::max(error, r.segment<6>(6 * nodes[k]).norm());
   return error;
 }
@@ -90,7 +90,7 @@ TEST_CASE(
     eps[5] = 0;
     eps[4] = 0.4;
     CHECK(error({0, 0.5, 0}) < 1e-13);
-    // A pre-twisted beam stretched and twisted.
+    // A pre-twisted beam is stretched and twisted.
     eps.setZero();
     eps[0] = 0.2;
     eps[3] = 0.7;
@@ -175,7 +175,7 @@ TEST_CASE("a bent beam that is carried around by its clamp keeps its strains (ob
   const double energy = beam.dense.energy(beam.state).elastic;
   const NodeState tip = beam.node("tip");
   const auto root = static_cast<std::size_t>(*beam.model->find_node("root"));
-  // One and a half turns about a general axis, the clamp alone: the rest follows by Newton's method.
+  // Only the clamp turns, by one and a half turns about a general axis: the rest follows by Newton's method.
   const Vector3 axis = Vector3(1, -2, 0.5).normalized();
   for (int k = 1; k <= 180; ++k) {
     beam.state.nodes[root].R = exp_so3(axis * (3 * pi * k / 180));

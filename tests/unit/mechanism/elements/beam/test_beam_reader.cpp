@@ -118,7 +118,8 @@ TEST_CASE("start velocities of inner nodes go over from the motion of one end to
   const auto model =
       beam(section + ", elements: 4", "{position: [0, 0, 0], velocity: [1, 0, 0], angular_velocity: [0, 0, 1]}",
            "{position: [2, 0, 0], rotation_vector: [0, 0, pi/2], angular_velocity: [2, 0, 3]}");
-  // At a quarter: the start alone would move it by (1, 0.5, 0), the end by (0, 3, -2) x (-1.5, 0, 0).
+  // The point is at a quarter of the length: the start alone would move it by (1, 0.5, 0), the end by (0, 3, -2) x
+  // (-1.5, 0, 0).
   const Node& node = model->node(3);
   CHECK(error(node.velocity, 0.75 * Vector3(1, 0.5, 0) + 0.25 * Vector3(0, 2, 3).cross(Vector3(-1.5, 0, 0))) < 1e-14);
   CHECK(error(node.frame.R * node.angular_velocity, Vector3(0, 0.5, 1.5)) < 1e-14);

@@ -45,7 +45,7 @@ TEST_CASE("rectangles, circles and tubes have their moments about y and z") {
   CHECK_THAT(c.shear_area(1, 1), WithinRel(6.0 / 7 * 4 * pi, 1e-15));
   const SectionConstants t = tube_constants(2, 1);
   CHECK_THAT(t.I_z, WithinRel(15 * pi / 4, 1e-14));
-  // A thin tube carries shear with half its area.
+  // A thin tube carries shear with half of its area.
   const SectionConstants thin = tube_constants(1, 0.9999);
   CHECK_THAT(thin.shear_area(0, 0), WithinRel(0.5 * thin.A, 1e-4));
 }

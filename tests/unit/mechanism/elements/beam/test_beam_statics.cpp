@@ -65,7 +65,7 @@ TEST_CASE("one element gives the tip deflection of a Timoshenko cantilever exact
     CHECK_THAT(beam.tip().x.z(), Catch::WithinRel(P * (L * L * L / 15 + L / 40), 1e-9));
     CHECK_THAT(log_so3(beam.tip().R).z(), Catch::WithinRel(P * L * L / 6, 1e-9));
   }
-  // Constant strain misses a quarter of the bending: P L^3/(4 EI).
+  // Constant strain lacks a quarter of the bending: P L^3/(4 EI).
   Cantilever stiff(
       "nodes: {root: {position: [0, 0, 0]}, tip: {position: [2, 0, 0]}}\n"
       "elements: {b: {type: beam, nodes: [root, tip], elements: 1, bending: constant, "
@@ -167,7 +167,7 @@ TEST_CASE("the twisted beam of MacNeal and Harder") {
   check_deflection(exact("shear.z"), [&](int n, const char* bending) {
     return unit_deflection(twisted(n, bending), Vector3::UnitZ()).z();
   });
-  // Stiff in shear: the pre-twisted Bernoulli rod.
+  // If it is stiff in shear, it is the pre-twisted Bernoulli rod.
   const std::string stiff = ", shear_factors: [1e8, 1e8]";
   for (const int n : {1, 3}) {
     CHECK_THAT(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitY()).y(),

@@ -57,7 +57,7 @@ TEST_CASE("stresses of a cantilever as measures are those of the theory of beams
   const auto axial = [&](double x) { return (N + V * slope(x)) / A; };
   const auto at_top = [&](double x) { return axial(x) - (V * (1 - x) - N * (w(1) - w(x))) * h / 2 / I; };
   const auto at_centroid = [&](double x) { return 1.5 * (V - N * slope(x)) / A; };
-  constexpr double second_order = 1e-6;  // N L^2/(EI) squared, 2.4e-6, and less in parts of it
+  constexpr double second_order = 1e-6;  // N L^2/(EI) squared, 2.4e-6, and less in some of the quantities
   const auto measured = [&](const char* name) { return session.measure(name); };
   CHECK(measured("top") == Approx(at_top(0.25)).epsilon(second_order));
   CHECK(measured("at_top") == Approx(std::abs(measured("top"))).epsilon(1e-12));

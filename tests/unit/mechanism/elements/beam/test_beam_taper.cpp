@@ -104,7 +104,7 @@ TEST_CASE("a conical bar held at both ends has the axial frequencies of a unifor
 }
 
 TEST_CASE("bending and torsional frequencies of a tapered beam converge with the second power of the element length") {
-  // Slender enough for the second-order part that uniform beams have as well to stay small.
+  // The beam is so slender that the second-order part, which uniform beams have as well, is small.
   const auto frequencies = [](int elements, const std::vector<int>& directions) {
     StaticModel model(beam(elements,
                            "[{circle: 0.02, young: 4e4, shear: 1.5e4, density: 100}, {circle: 0.01, young: 4e4, shear: "

@@ -183,7 +183,7 @@ TEST_CASE("a ring buckles at 3 EI/R^3 under pressure that follows it and at 4 EI
     for (int elements : {4, 8, 16}) errors.push_back(buckling_pressure(elements, follower) / exact - 1);
     CAPTURE(follower, errors);
     CHECK(std::abs(errors.back()) < 1e-3);
-    // Dead forces are integrated as exactly as the line is represented; the direction of followers is that of the
+    // Dead forces are integrated as accurately as the line is represented; the direction of followers is that of the
     // helix.
     CHECK_THAT(std::log2(errors[1] / errors[2]), WithinAbs(follower ? 2 : 4, 0.1));
   }

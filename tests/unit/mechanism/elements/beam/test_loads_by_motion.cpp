@@ -108,7 +108,7 @@ TEST_CASE("strip theory written as a formula is that of an airfoil: thrust and t
   CAPTURE(load);
   Session session = session_of(turning_blade(W, load, "drives: {motor: {joint: shaft, rate: 7}}\n"));
   session.dynamics(steps_of(0.05, 0.001)).finish();
-  // The blade, whose oscillations are damped within 1e-3 s, is deflected by 1e-7 of its length.
+  // The blade, whose oscillations decay within 1e-3 s, is deflected by 1e-7 of its length.
   CHECK_THAT(session.read("joints/shaft/drive_force")[0], WithinRel(q * cd * std::pow(length, 4) / 4, 1e-5));
   const double lift = -q * cl * std::pow(length, 3) / 3;
   CHECK_THAT(session.read("joints/shaft/reaction")[2], WithinRel(-lift, 1e-5));
@@ -129,7 +129,7 @@ measures: {up: tip.position.z}
 }
 
 TEST_CASE("polars of stations are interpolated along the blade") {
-  // Lift 0.4 up to s = 0.25, 1 from 0.75 on, straight between them; drag 0.02 and 0.05 likewise.
+  // The lift is 0.4 up to s = 0.25 and 1 from 0.75 on, linear between them; the drag is 0.02 and 0.05 likewise.
   const double q = 0.5 * rho * chord * 100 * length;
   const std::string load = GENERATE("polars: [{at: 0.25, lift: 0.4, drag: 0.02}, {at: 0.75, lift: 1, drag: 0.05}]",
                                     "polars: [{at: 0.25, table: [[-180, 0.4, 0.02, 0], [180, 0.4, 0.02, 0]], angles: "

@@ -51,7 +51,7 @@ Eigen::Matrix<double, 3, 6> stress(const SectionShape& s, const Vector2& point, 
   return unit_stress(s.constants(), point, offset, s.shear_stress(point));
 }
 
-/// The same rectangles on the program's grid and on one sixteen times as fine at the corners.
+/// The same rectangles are computed on the program's grid and on one that is sixteen times as fine at the corners.
 void check_against_finer_grid(const std::vector<SectionRectangle>& rectangles) {
   const RectangleArea area(rectangles);
   const SaintVenant usual(area), fine(area, {1.0 / 512, 1.3});
@@ -72,7 +72,7 @@ TEST_CASE("finite elements on a rectangle give Saint-Venant's torsion constant a
     CHECK_THAT(s.shear_compliance()(0, 0), WithinRel(1.2 / a, 2e-4));
     CHECK_THAT(s.shear_compliance()(1, 1), WithinRel(1.2 / a, 2e-4));
     CHECK(s.shear_centre().norm() < 1e-12);
-    // Cut into two rectangles it is the same section.
+    // The section remains the same if it is cut into two rectangles.
     CHECK_THAT(SaintVenant(RectangleArea({{0, a / 2, 0, 1}, {a / 2, a, 0, 1}})).J(), WithinRel(s.J(), 1e-4));
   }
 }
@@ -86,7 +86,7 @@ TEST_CASE("the grid of sections made of walls is fine enough for an error of 2e-
 }
 
 TEST_CASE("thin walls have the constants of the theory of thin walls") {
-  // Walls of 1/100 of the height: the terms that the theory neglects are about 1 %.
+  // The walls are 1/100 of the height: the terms that the theory neglects are about 1 %.
   const SectionConstants box = shape("box", "{width: 60, height: 100, thickness: [0.5, 1]}")->constants();
   const double b = 59.5, h = 99;  // between the middles of the walls
   CHECK_THAT(box.J, WithinRel(4 * b * b * h * h / (2 * b / 1 + 2 * h / 0.5), 1e-2));  // Bredt
@@ -169,7 +169,7 @@ TEST_CASE("stresses in the thinnest walls are those of the theory of thin walls"
   const double t = 2e-5;
   const auto i = shape("i", fmt::format("{{width: 0.6, height: {:.17g}, web: {}, flange: {}}}", 1 + t, t, t));
   const SectionConstants& k = i->constants();
-  // Torsion: T t/J on both faces of the web; shear V S/(I t) in its middle.
+  // The torsional stress is T t/J on both faces of the web; the shear stress V S/(I t) is in its middle.
   CHECK_THAT(stress(*i, {t / 2, 0.1})(2, 3), WithinRel(t / k.J, 1e-3));
   CHECK_THAT(stress(*i, {-t / 2, -0.2})(2, 3), WithinRel(-t / k.J, 1e-3));
   CHECK_THAT(stress(*i, {0, 0})(2, 2), WithinRel((0.6 * t * 0.5 + t * 0.125) / k.I_y / t, 1e-3));
@@ -196,7 +196,8 @@ TEST_CASE("sections along a taper of walls are those of solutions at the place, 
       return read_shape_dimensions(name, bielle::YamlValue::parse(text, "shape.yaml"));
     };
     const VectorX start = dimensions(from), end = dimensions(to);
-    // Inside of the walls, away from the corners: of i the web's middle and a flange, of the others likewise.
+    // The points are inside the walls, away from the corners: the web's middle and a flange of the i, and likewise of
+    // the others.
     const Vector2 p0 = shape(name, from)->constants().shear_centre, p1 = shape(name, to)->constants().shear_centre;
     const bool corner = name == "l" || name == "t";  // the shear centre lies in the corner of the walls, inside
     VectorX points_start = VectorX::Zero(2), points_end = VectorX::Zero(2);

@@ -56,7 +56,7 @@ TEST_CASE("a delay differential equation is solved with second order, whatever t
   const std::string smooth = rotor(
       "states: {y: {rate: \"4*t^3 + 1 + max(t - 0.0317, 0)^4 - late\", start: 1}, late: {delayed: y, time: 0.0317}}\n");
   check_second_order([&](double h) { return Eigen::VectorXd::Constant(1, last_value(smooth, 1, h, "y") - 2); }, 0.1, 4);
-  // With the kinks of the start the error depends on where they lie in a step, and remains of second order.
+  // With the kinks of the start the error depends on their positions within a step, and remains of second order.
   for (const double h : {0.1, 0.05, 0.025, 0.0125, 0.00625})
     CHECK(std::abs(last_value(decay(0.0317), 1, h, "y") - delayed_decay(1, 0.0317)) < 0.05 * h * h);
 }

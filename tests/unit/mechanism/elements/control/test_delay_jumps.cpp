@@ -77,7 +77,7 @@ TEST_CASE("a sampled value comes back after the delay with all its jumps") {
                                        T)));
       Motion motion = session.dynamics(steps_of(1, h, tolerance));
       REQUIRE(motion.finish());
-      double exact = 7 * T;  // u had its start value before the motion
+      double exact = 7 * T;  // before the motion, u had its start value
       for (int k = 0; 0.05 * k + T < 1 - 1e-9; ++k) exact += k * k * std::min(0.05, 1 - T - 0.05 * k);
       CHECK(value(session, "whole") == Approx(exact).epsilon(1e-9));
     }

@@ -363,7 +363,7 @@ TEST_CASE("a sampled block that grows by itself is warned of, one that integrate
   CHECK_THAT(first("transfer_function: {numerator: [1], denominator: [1, 0, 4]}"), Contains("a root of magnitude 2"));
   CHECK_THAT(first("state_space: {A: [[0.5, 1], [0, -3]], B: [[1], [0]]}"),
              Contains("states.u.state_space.A") && Contains("an eigenvalue of magnitude 3"));
-  // One and three integrators; leading zeros, which change nothing.
+  // The blocks are one and three integrators; leading zeros have no effect.
   CHECK(warnings("transfer_function: {numerator: [0.01, 0], denominator: [1, -1]}").empty());
   CHECK(warnings("transfer_function: {numerator: [1], denominator: [1, -3, 3, -1]}").empty());
   CHECK(warnings("transfer_function: {numerator: [0, 0, 0, 1], denominator: [0, 1, -0.5]}").empty());

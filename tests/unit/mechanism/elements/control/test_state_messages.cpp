@@ -46,7 +46,7 @@ TEST_CASE("a loop through direct feed-through is refused where it stands") {
       "states: {lead: {transfer_function: {numerator: [2, 1], denominator: [1, 3]}, input: \"main.angle - gain\"}}\n"
       "measures: {gain: \"3*lead\"}\n");
   CHECK_THAT(loop, Contains("model.yaml:") && Contains("refers to itself"));
-  // Without it the loop is one of differential equations.
+  // Without it the loop consists of differential equations.
   CHECK(message(
             "states: {lag: {transfer_function: {numerator: [1], denominator: [1, 3]}, input: \"main.angle - gain\"}}\n"
             "measures: {gain: \"3*lag\"}\n") == "(nothing thrown)");

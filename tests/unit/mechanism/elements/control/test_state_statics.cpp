@@ -52,7 +52,7 @@ TEST_CASE("in statics a controller's integral is what keeps the joint at its tar
   CHECK(session.read("measures/seen")[0] == Approx(0.4).epsilon(1e-9));
   CHECK(session.read("measures/total")[0] == Approx(holding / 50).epsilon(1e-8));
   CHECK(told.all.empty());
-  // From there nothing moves.
+  // No state changes from there on.
   Motion motion = session.dynamics(steps_of(0.5, 0.01));
   motion.finish();
   CHECK(session.read("joints/main/coordinate")[0] == Approx(0.4).epsilon(1e-8));

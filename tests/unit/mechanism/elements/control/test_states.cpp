@@ -39,7 +39,7 @@ Eigen::VectorXd at_end(const std::string& text, double duration, double h, const
 TEST_CASE("a first-order filter answers a ramp and a sine as its closed form") {
   constexpr double T = 0.15, rate = 2, w = 7, end = 0.5;
   const std::string states = "states: {lag: {filter: main.angle, time_constant: 0.15}}\n";
-  // From 1: without a transient of its own at the start.
+  // The state starts from 1, without a transient of its own.
   check_second_order(
       [&](double h) {
         const double y = at_end(rotor("drives: {m: {joint: main, angle: \"1 + 2*t\"}}\n" + states), end, h, {"lag"})[0];
@@ -133,7 +133,7 @@ measures: {turned: main.angle, speed: main.angle.rate}
         return Eigen::Vector3d(end[0] - z[0], (end[1] - z[1]) / 10, end[2] - z[2]);
       },
       0.005, 4);
-  // Steps that follow the error: the bound of the manual, tolerance^(2/3).
+  // The steps follow the error; the bound is that of the manual, tolerance^(2/3).
   const Eigen::VectorXd end = at_end(text, 0.6, 1e-4, {"turned", "speed", "seen"}, 1e-8);
   CHECK(std::abs(end[0] - z[0]) < std::pow(1e-8, 2.0 / 3));
   CHECK(std::abs(end[2] - z[2]) < std::pow(1e-8, 2.0 / 3));

@@ -12,7 +12,7 @@ using Catch::Contains;
 
 namespace {
 
-// A node turned by 90 degrees about z: its x axis is the inertial y axis.
+// The node is turned by 90 degrees about z: its x axis is the inertial y axis.
 VectorX force(const std::string& load, double time, double factor = 1) {
   const auto model = model_from_text(
       "nodes: {a: {position: [5, 6, 7], rotation_vector: [0, 0, pi/2]}}\nloads: {gas: {node: a, " + load + "}}");
@@ -31,7 +31,7 @@ VectorX six(double a, double b, double c, double d, double e, double f) {
 
 TEST_CASE("a dead load keeps its direction in space, its moment about the node is felt in the node's axes") {
   CHECK((force("force: ['2*t', 0, 0]", 3) - six(6, 0, 0, 0, 0, 0)).norm() < 1e-15);
-  // At 0.1 along the node's x (inertial y), force along inertial x: moment -0.6 about z.
+  // The point is at 0.1 along the node's x (inertial y), and the force along inertial x: moment -0.6 about z.
   CHECK((force("force: ['2*t', 0, 0], at: [0.1, 0, 0]", 3) - six(6, 0, 0, 0, 0, -0.6)).norm() < 1e-15);
   CHECK((force("moment: [0, 4, 0]", 0) - six(0, 0, 0, 4, 0, 0)).norm() < 1e-15);
   CHECK((force("moment: [0, 4, 0]", 0, 0.25) - six(0, 0, 0, 1, 0, 0)).norm() < 1e-15);

@@ -53,7 +53,7 @@ TEST_CASE("a formula of elongation and rate stores and dissipates, one of time i
   CHECK_THAT(energy.dissipation, Catch::WithinRel(2.0, 1e-14));
   CHECK(energy.input == 0);
 
-  // A kink at e = 1: the energy is 5 (e - 1)^2/2 beyond.
+  // The force has a kink at e = 1: the energy is 5 (e - 1)^2/2 beyond.
   const auto slack = spring("force: 'if(e > 1, 5*(e - 1), 0)', length: 3");
   CHECK_THAT(DenseModel(*slack).energy(DenseModel(*slack).start()).elastic, Catch::WithinRel(2.5, 1e-9));
 

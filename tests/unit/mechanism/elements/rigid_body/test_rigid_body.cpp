@@ -99,7 +99,7 @@ TEST_CASE("inertia is given about the centre of mass as three, six or nine numbe
         1e-15);
   expected.bottomRightCorner<3, 3>() = Vector3(1, 1.5, 2).asDiagonal();
   CHECK(error(mass_matrix(*body("mass: 2, inertia: [1, 1.5, 2]")), expected) < 1e-15);
-  // Steiner: centre (0, 0, 3) adds 2 * 9 about x and y and couples force and moment.
+  // By Steiner's theorem, the centre (0, 0, 3) adds 2 * 9 about x and y and couples force and moment.
   expected(3, 3) += 18;
   expected(4, 4) += 18;
   expected(0, 4) = expected(4, 0) = 6;
@@ -108,7 +108,7 @@ TEST_CASE("inertia is given about the centre of mass as three, six or nine numbe
 }
 
 TEST_CASE("inertia may be given about the node and in axes of its own") {
-  // The same body, described four ways: principal moments in axes turned by R, centre off the node.
+  // The same body is described in four ways: principal moments in axes turned by R, centre off the node.
   const Vector3 c(0.3, -0.2, 0.5);
   const Matrix3 R = exp_so3({0.4, 0.3, -0.8});
   MassProperties p{2, c, R * Vector3(1, 1.5, 2).asDiagonal() * R.transpose()};
@@ -148,12 +148,12 @@ TEST_CASE("homogeneous solids have the inertia of textbooks") {
 
 TEST_CASE("solids are placed and added up") {
   const auto matrix = [](const std::string& solid) { return mass_matrix(*body("solid: " + solid)); };
-  // Two halves of a box are the box.
+  // Two halves of a box are equal to the box.
   const MatrixX whole = matrix("{box: [2, 3, 5], density: 1.5}");
   CHECK(error(matrix("[{box: [1, 3, 5], density: 1.5, position: [0.5, 0, 0]}, "
                      "{box: [1, 3, 5], mass: 22.5, position: [-0.5, 0, 0]}]"),
               whole) < 1e-12);
-  // The same box lying in other axes: edges exchanged by a quarter turn.
+  // The same box is drawn in other axes: its edges are exchanged by a quarter turn.
   CHECK(error(matrix("{box: [3, 2, 5], density: 1.5, rotation_vector: [0, 0, \"pi/2\"]}"), whole) < 1e-12);
   // A tube is a cylinder from which another is cut, in either order.
   const MatrixX tube = matrix("{tube: [2, 1, 6], density: 3, position: [1, 2, 3], euler: [0.2, 0.5, 1]}");
@@ -161,7 +161,7 @@ TEST_CASE("solids are placed and added up") {
   const std::string inner = "{cylinder: [1, 6], density: 3, position: [1, 2, 3], euler: [0.2, 0.5, 1], cut: true}";
   CHECK(error(matrix("[" + outer + ", " + inner + "]"), tube) < 1e-10);
   CHECK(error(matrix("[" + inner + ", " + outer + "]"), tube) < 1e-10);
-  // Steiner: a sphere off the node.
+  // Steiner's theorem gives the inertia of a sphere off the node.
   const MassProperties ball = sphere(0.5);
   MatrixX expected = MatrixX::Identity(6, 6) * ball.mass;
   expected.topRightCorner<3, 3>() = -ball.mass * skew(Vector3(0, 2, 0));
@@ -283,11 +283,11 @@ TEST_CASE("a mass distribution that no body has is refused") {
   CHECK_THROWS_WITH(body("mass: 1, inertia: [0, 0, 0]"), Contains("`point_mass`"));
   CHECK_THROWS_WITH(body("mass: 1, inertia: [0, 0, 1]"), Contains("exceeds the sum"));
   CHECK_THROWS_WITH(body("mass: 1e200, centre: [1e200, 0, 0], inertia: [1, 1, 1]"), Contains("too large"));
-  // A line of mass has no inertia about itself, whatever axes it is written in.
+  // A line of mass has no inertia about itself, in any axes.
   CHECK_NOTHROW(body("mass: 1, inertia: [0, 1, 1]"));
   CHECK_NOTHROW(body("mass: 1, inertia: [0, 1, 1], inertia_axes: {bryant: [0.3, 0.7, -1.1]}"));
   CHECK_NOTHROW(body("mass: 1, inertia: [0.5, 0.5, 1, 0.5, 0, 0]"));
-  // A thin disk lies on the bound and is rounded by its user.
+  // A thin disk lies on the bound, and its numbers are rounded by the user.
   CHECK_NOTHROW(body("mass: 1, inertia: [0.333, 0.333, 0.6662]"));
 }
 
@@ -318,7 +318,7 @@ TEST_CASE("a hole that is cut twice is refused") {
   CHECK(ReadSolids(plate + ", " + once).warnings.empty());
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + once),
                     Contains("solid[3]") && Contains("solid 2 of the list has cut it out already"));
-  // Also where it is drawn otherwise, or lies inside of the other.
+  // This also holds if it is drawn elsewhere, or lies inside of the other.
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", {tube: [0.03, 1e-6, 0.1], density: 1000, cut: true}"),
                     Contains("has cut it out already"));
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + hole(0.01, 0.02, "[0.01, 0, 0.03]")),
@@ -328,14 +328,14 @@ TEST_CASE("a hole that is cut twice is refused") {
 }
 
 TEST_CASE("holes that overlap or project are told with their share") {
-  // A counterbore that is drawn through the hole below it.
+  // A counterbore is drawn through the hole below it.
   const ReadSolids bore(plate + ", " + hole(0.02, 0.1, "[0, 0, 0]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"));
   CHECK_THAT(bore.warnings, Contains("solid[3]") && Contains("about 25 % of what this solid cuts out is not there") &&
                                 Contains("solid 2 of the list has cut that part out already"));
   CHECK_THAT(ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).warnings,
              Contains("about 50 % of what this solid cuts out is not there") &&
                  Contains("no other solid of its density is there"));
-  // Two holes that meet: one ends where the other begins.
+  // Two holes meet: one ends where the other begins.
   CHECK(ReadSolids(plate + ", " + hole(0.02, 0.05, "[0, 0, -0.025]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"))
             .warnings.empty());
   // A solid that fills a hole can be cut again.
@@ -359,7 +359,7 @@ TEST_CASE("the share of each shape that projects is that of its volume") {
     CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1000, cut: true}").warnings,
                Contains(fmt::format("about {} % of what", share)));
     CHECK(ReadSolids(material + ", {" + shape + ", density: 1000, position: [0, 0, 0.5], cut: true}").warnings.empty());
-    // Turned over: the cone's other end projects.
+    // If it is turned over, the cone's other end projects.
     const std::string turned = ", density: 1000, rotation_vector: [3.141592653589793, 0, 0], cut: true}";
     CHECK_THAT(ReadSolids(material + ", {" + shape + turned).warnings,
                Contains(fmt::format("about {} % of what", share == std::string("27") ? "73" : share)));

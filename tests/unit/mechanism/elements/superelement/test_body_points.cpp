@@ -79,7 +79,7 @@ TEST_CASE("a load on a point does what it does on an interface there, but for th
   REQUIRE(model.load(1, 1e-10) >= 0);  // rounding of EA = 1e5
   // The point is between the mesh's nodes, including those at a twentieth of the length: the error is some 1e-3.
   CHECK(model.node("middle").x.y() == Approx(force / 24).epsilon(3e-3));
-  CHECK(model.node("it.b").x.y() == Approx(force * 5 / 48).epsilon(2e-3));  // interfaces answer exactly to what acts
+  CHECK(model.node("it.b").x.y() == Approx(force * 5 / 48).epsilon(2e-3));  // interfaces respond exactly to a load
   CHECK(log_so3(model.node("middle").R).z() == Approx(force / 8).epsilon(5e-3));
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("a point that the body file names moves with its piece") {
   CutBody body = cut_beam();
   Superelement& piece = body.pieces[1];
   const Eigen::Index n = piece.size();
-  // Midway between the interfaces at 0.3 and 0.6, with the mean of their motions.
+  // The point is midway between the interfaces at 0.3 and 0.6, and moves with the mean of their motions.
   NamedPoint point{{0.45, 0, 0}, MatrixX::Zero(6, n), {}};
   point.shapes.leftCols<6>().setIdentity();
   point.shapes.middleCols<6>(6).setIdentity();

@@ -110,7 +110,7 @@ TEST_CASE("nodes far from any placement of the body are refused with a sentence"
   CHECK_THROWS_AS(alone.residual(state), bielle::ComputationError);
   CHECK_THROWS_WITH(alone.residual(state),
                     Catch::Contains("superelement 'alone': the positions of its interfaces are no"));
-  // With a geometric stiffness far beyond that of a beam, two deformations soon belong to one position, or none.
+  // With a geometric stiffness far beyond that of a beam, a position soon has two deformations, or none.
   bielle::Superelement tense = straight_beam().reduced().body;
   for (MatrixX& stiffness : tense.load_stiffness) stiffness *= 100;
   const SuperelementAlone beyond(tense);
@@ -155,7 +155,7 @@ TEST_CASE("bodies with one interface, and with two that coincide, have a frame")
     CHECK(geometry.q.head<6>().norm() < 1e-14);
     CHECK(error(geometry.frame.R, state.nodes[0].R) < 1e-14);
   }
-  // A ring closes where it begins: the chain's two ends stand at one place.
+  // A ring closes at its beginning: both ends of the chain are at one place.
   BeamChain ring = bent_chain();
   ring.nodes.clear();
   for (int k = 0; k <= 16; ++k)

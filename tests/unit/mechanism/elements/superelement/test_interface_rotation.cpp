@@ -38,7 +38,7 @@ TEST_CASE("a rotational coordinate is the kept part of a small rotation vector")
       if (kept[static_cast<std::size_t>(k)]) keep += axes.col(k) * axes.col(k).transpose();
     CHECK(error(rotation.differential(Matrix3::Identity()), keep) < 1e-15);
     const Vector3 small = random.vector3(1e-6);
-    // Past first order: 1e-12.
+    // The difference is of higher order: 1e-12.
     CHECK(error(rotation.coordinate(exp_so3(small)), keep * small) < 1e-11);
   }
 }

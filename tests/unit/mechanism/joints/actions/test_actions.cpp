@@ -103,7 +103,7 @@ TEST_CASE("spring and damper let a coordinate oscillate, and the energy balance 
     REQUIRE(motion.finish());
     const double e = std::exp(-delta * 0.4), c = std::cos(w * 0.4), s = std::sin(w * 0.4);
     const double x = -rest * e * (c + delta / w * s), v = rest * e * (k / m) / w * s;
-    // (omega h)^2/12 of a phase of 8: 1e-4 of the amplitude, w of that in rates.
+    // The error is (omega h)^2/12 of a phase of 8: 1e-4 of the amplitude, and w times this in rates.
     CHECK(session.read("joints/pair/coordinate")[sample.index] == Approx(rest + x).margin(1e-4 * rest));
     CHECK(session.read("joints/pair/rate")[sample.index] == Approx(v).margin(1e-4 * rest * w));
     CHECK(session.read("joints/pair/spring_force")[sample.index] ==

@@ -96,7 +96,8 @@ TEST_CASE("a mass falls freely from the instant at which its link is released") 
 }
 
 TEST_CASE("a pendulum that is let go flies on with its velocity, to second order") {
-  // Let go at 0.3 rad beyond the lowest point: velocity by energy, then a parabola and a constant rate.
+  // It is released at 0.3 rad beyond the lowest point: the velocity follows from the energy, then the motion is a
+  // parabola with a constant rate.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {arm: {position: [-0.5, 0, 0]}}
@@ -120,7 +121,7 @@ events: {loose: {when: main.angle, crosses: ANGLE, do: [{release: main}]}}
                    arm.v.squaredNorm() / 2 + 9.81 * arm.x.z() - energy)
         .norm();
   };
-  // The instant lies at any place within a step: the factor of h^2 varies a little with this place.
+  // The instant lies at an arbitrary place within a step: the factor of h^2 varies slightly with this place.
   double before = error(0.008);
   for (const double h : {0.004, 0.002, 0.001}) {
     const double now = error(h);
@@ -185,7 +186,7 @@ events: {go: {when: mass.position.x, crosses: 1.06, do: [{release: spring}]}}
 }
 
 TEST_CASE("a spring that is activated while it is stretched supplies its energy, and swings") {
-  // At 0.5 m the free mass at 1 m/s meets a spring that is free at 0.2 m: amplitude by energy.
+  // At 0.5 m the free mass at 1 m/s meets a spring that is free at 0.2 m: the amplitude follows from the energy.
   const std::string model = R"yaml(
 nodes: {mass: {position: [0, 0, 0], velocity: [1, 0, 0], fixed: [y, z, rx, ry, rz]}, wall: {position: [-1, 0, 0], fixed: true}}
 elements:

@@ -59,7 +59,7 @@ events: {up: {when: slide.displacement, crosses: 0.05, direction: rising}}
   CHECK(value(session, "measures/so") == 1);
   CHECK(value(session, "measures/later") == 1);
   CHECK(value(session, "measures/slope") == 1);
-  // Once in each of ten periods and in the half one: at pi/6 after each multiple of 2 pi.
+  // The event occurs once in each of ten periods and in the half one: at pi/6 after each multiple of 2 pi.
   CHECK(value(session, "measures/often") == 11);
   CHECK(value(session, "measures/when") == Approx((20 * M_PI + M_PI / 6) / 20).epsilon(1e-3));
 }
@@ -224,7 +224,7 @@ events:
 )yaml");
   Motion motion = session.dynamics(steps_of(1, 0.01));
   CHECK_THAT(message_of<ComputationError>([&] { motion.finish(); }),
-             Contains("is met again and again") && Contains("hysteresis"));
+             Contains("occurs again and again") && Contains("hysteresis"));
 }
 
 TEST_CASE("events that cause each other without end at one instant end the run with a sentence") {
@@ -237,7 +237,7 @@ events:
   low: {when: watched, crosses: 0.5, direction: falling, do: [{set: {gain: 2}}], once: false}
 )yaml"));
   Motion motion = session.dynamics(steps_of(0.2, 0.01));
-  CHECK_THAT(message_of<ComputationError>([&] { motion.finish(); }), Contains("is met again and again"));
+  CHECK_THAT(message_of<ComputationError>([&] { motion.finish(); }), Contains("occurs again and again"));
 }
 
 TEST_CASE("events whose intervals shrink to nothing end the run with a sentence, at the instant of their limit") {
@@ -256,7 +256,7 @@ events:
                                              y));
     Motion motion = session.dynamics(steps_of(12, 0.01));
     const std::string message = message_of<ComputationError>([&] { motion.finish(); });
-    CHECK_THAT(message, Contains("is met again and again"));
+    CHECK_THAT(message, Contains("occurs again and again"));
     CHECK_THAT(message, Contains(fmt::format("t = {:.6g} s", (1 + y) / 0.25)));
   }
 }

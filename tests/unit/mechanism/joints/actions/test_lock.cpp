@@ -44,7 +44,7 @@ loads: {motor: {node: first, moment: [0, 0, 3]}}
 TEST_CASE("two rotors are coupled for a time: momentum stays, the lost energy is booked") {
   const bool both_on_ground = GENERATE(false, true);
   const auto form = GENERATE(ConstraintForm::position, ConstraintForm::corrected, ConstraintForm::stabilised);
-  // 0.7 is no time of the grid of the second size.
+  // 0.7 is not a time of the grid of the second size.
   const double h = GENERATE(0.01, 0.033);
   CAPTURE(both_on_ground, static_cast<int>(form), h);
   constexpr double J1 = 0.5, J2 = 0.2, T = 3;
@@ -54,7 +54,7 @@ TEST_CASE("two rotors are coupled for a time: momentum stays, the lost energy is
   const auto speed = [&](const char* node) { return session.node(node).Omega.z(); };
   while (motion.time() < 0.5 - 1e-12) motion.step();
   REQUIRE(motion.time() == 0.5);
-  // Constant torque: exact for the scheme.
+  // The torque is constant, which is exact for the scheme.
   const double w1 = 10 + T / J1 * 0.5, w2 = -4;
   CHECK(speed("first") == Approx(w1).epsilon(1e-11));
   CHECK(speed("second") == Approx(w2).epsilon(1e-11));
@@ -164,7 +164,7 @@ loads: {pull: {node: body, force: [")yaml") +
 }
 
 TEST_CASE("a lock that is loaded beyond its release at once opens at once") {
-  // 30 N from 0.2 s on, or with the start: more than the 20 N that it holds.
+  // 30 N act from 0.2 s on, or from the start: more than the 20 N that the lock holds.
   const double from = GENERATE(0.2, -1.0);
   const std::string text = R"yaml(
 nodes: {body: {position: [0, 0, 0]}}
@@ -187,7 +187,7 @@ loads: {pull: {node: body, force: ["if(t < )yaml" +
 }
 
 TEST_CASE("a lock holds in statics and while a mechanism is put together") {
-  // A spring would let the body down by 3 g / 600; the lock holds the weight.
+  // A spring would lower the body by 3 g / 600; the lock holds the weight.
   const std::string text = R"yaml(
 gravity: [0, 0, -10]
 nodes: {body: {position: [0, 0, -1]}}
@@ -209,7 +209,7 @@ joints: {path: {type: prismatic, nodes: [ground, body], axis: [0, 0, 1], stiffne
   compute_statics(locked);
   CHECK(locked.read("joints/path/coordinate")[0] == Approx(0).margin(1e-15));
   CHECK(locked.read("joints/path/lock_force")[0] == Approx(30).epsilon(1e-9));
-  // It lets go at 0.3: the body oscillates about the equilibrium.
+  // The lock opens at 0.3: the body oscillates about the equilibrium.
   Motion motion = locked.dynamics(steps_of(0.6, 1e-3));
   while (motion.time() < 0.3) motion.step();
   CHECK(locked.read("joints/path/coordinate")[0] == Approx(0).margin(1e-15));
@@ -253,7 +253,7 @@ joints:
   CHECK(rate() > 0.1);
   while (motion.time() < 0.25) motion.step();
   const double at = angle(), stored = energy + G * (1 - std::cos(at));
-  // (Errors of order 2: w^2 h^2 = 1e-5 with w^2 = G/J.)
+  // (Errors are of order 2: w^2 h^2 = 1e-5 with w^2 = G/J.)
   CHECK(J * rate() * rate() / 2 == Approx(stored).epsilon(1e-5));
   const double kinetic = session.energy().kinetic;
   while (motion.time() < 0.4) {
@@ -275,7 +275,7 @@ joints:
 }
 
 TEST_CASE("a lock that steps cannot end on closes with the next one") {
-  // More kinks than steps: a torque too small to change the speeds jumps at each of them.
+  // There are more kinks than steps: a torque too small to change the speeds jumps at each of them.
   std::string text = rotors(false);
   std::string kinks = "0*t";
   for (int k = 1; k <= 12; ++k) kinks += " + 1e-9*pulse(t, " + std::to_string(0.05 * k + 0.011) + ", 2)";
@@ -301,7 +301,7 @@ TEST_CASE("a session goes back and on across locks to the last bit") {
       for (const double number : session.read(name)) numbers.push_back(number);
     return numbers;
   };
-  for (const double when : {0.3, 0.5, 0.6, 0.7}) {  // at the kinks themselves what is to come is pending
+  for (const double when : {0.3, 0.5, 0.6, 0.7}) {  // at the kinks themselves the next value is pending
     INFO(when);
     Session session(model_of(rotors(true)));
     Motion motion = session.dynamics(steps_of(0.99, 0.01));

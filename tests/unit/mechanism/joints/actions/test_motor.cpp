@@ -76,7 +76,7 @@ TEST_CASE("no-load speed and stall: friction, a gear and another back EMF includ
   session.dynamics(steps_of(60, 0.05)).finish();
   CHECK(measured(session, "w") == Approx(w).epsilon(1e-9));
   CHECK(measured(session, "m.current") == Approx(n * b * w / k).epsilon(1e-9));
-  // Stalled against a spring: the torque n k V/R.
+  // The motor is stalled against a spring: the torque is n k V/R.
   Session stalled = session_of(
       "nodes: {rotor: {position: [0, 0, 0]}}\n"
       "elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.5]}}\n"
@@ -98,7 +98,7 @@ TEST_CASE("the voltage may depend on the motor's own current: a current controll
 }
 
 TEST_CASE("a motor's account of energy is closed with the order of the steps") {
-  // Input V i, heat R i^2, magnetic and kinetic energy: nothing is missing.
+  // Input V i, heat R i^2, magnetic and kinetic energy: the balance is closed.
   const auto missing = [](double h) {
     Session session = session_of(
         at_voltage("12*sin(5*t) - m.current", "inductance: 0.1, back_emf: 0.3, friction: 0.02, gear_ratio: 2"));

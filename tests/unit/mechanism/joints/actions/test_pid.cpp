@@ -102,11 +102,11 @@ TEST_CASE("a PID controller moves a hinge as its closed loop, with a filter of t
 }
 
 TEST_CASE("at a limit the torque stays there, and the integral follows it") {
-  // A step of 1 rad asks for ten times the torque that there is.
+  // A step of 1 rad requires ten times the available torque.
   ClosedLoop loop{60, 90, 6, 0, 5, 60.0 / 90, [](double) { return 1.0; }, [](double) { return 0.0; }};
   ClosedLoop slow = loop;
   const double end = 1.2;
-  // The right side has kinks: the reference is of second order there, its steps of 3 us.
+  // The right side has kinks: the reference is of second order there, with steps of 3 us.
   loop.advance(end, 400000);
   const std::string pid = "drives: {motor: {joint: main, pid: {target: 1, kp: 60, ki: 90, kd: 6, limit: 5";
   // The place in a step at which a limit is met makes errors scatter by a factor of two: the worst of several sizes of
@@ -124,7 +124,7 @@ TEST_CASE("at a limit the torque stays there, and the integral follows it") {
   CHECK(std::log2(coarse / fine) / 3 == Approx(2).margin(0.35));
   const End adaptive = run(rotor(pid + "}}}\n"), end, 1e-4, 1e-8);
   CHECK(std::abs(adaptive.angle - loop.z[0]) < std::pow(1e-8, 2.0 / 3));
-  // Another tracking time is another motion, and the right one.
+  // Another tracking time gives another motion, which is also correct.
   slow.tracking = 3;
   slow.advance(end, 400000);
   CHECK(std::abs(slow.z[0] - loop.z[0]) > 1e-3);
@@ -187,7 +187,7 @@ drives: {it: {joint: axle, pid: {target: "axle.angle.rate*t", kp: 3, ki: 2, kd: 
 }
 
 TEST_CASE("a stiff controller at its limits again and again goes on") {
-  // Limits that are met and left by velocities, dozens of times.
+  // Velocities reach and leave limits dozens of times.
   const End end = run(R"yaml(
 gravity: [0, -9.81, 0]
 nodes: {arm: {position: [0.5, 0, 0]}}

@@ -30,7 +30,7 @@ double torque(const Session& session) { return session.read("joints/main/drive_f
 }  // namespace
 
 TEST_CASE("after its release a joint moves freely, whatever has driven it") {
-  // Up to 0.3137 s, on no grid of steps: q = 4 t^2. After that the rate stays.
+  // Up to 0.3137 s, which is not on a grid of steps, q = 4 t^2. After that the rate is constant.
   constexpr double s = 0.3137, end = 0.6;
   const std::string drive =
       GENERATE("angle: \"4*t^2\"", "rate: \"8*t\"", "torque: \"4\"", "pid: {target: \"4*t^2\", kp: 1e5, kd: 1e3}");
@@ -70,7 +70,7 @@ TEST_CASE("a drive lets go where a measure crosses a value, once") {
     CHECK(torque(session) == 0);
     CHECK_THAT(motion.last_event(), Contains("motor") || Contains("there"));
   }
-  // A value that is crossed back and forth.
+  // The value is crossed back and forth.
   Session session = session_of(R"yaml(
 nodes: {rotor: {position: [0, 0, 0]}}
 elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.5]}}

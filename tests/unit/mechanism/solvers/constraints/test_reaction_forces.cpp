@@ -341,7 +341,7 @@ drives: {pull: {joint: upper, torque: "0.1*lower.reaction.z"}}
   const ReadyModel model(text);
   REQUIRE(model.system.set_aside().size() == 5);
   State state = model.system.start(0);
-  // Values of an earlier motion must not be read.
+  // Values of an earlier motion must not be used.
   state.reaction = VectorX::Constant(model.system.multipliers(), 1e3);
   Environment statics = model.environment();
   statics.statics = true;

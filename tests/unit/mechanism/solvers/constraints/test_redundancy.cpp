@@ -81,7 +81,7 @@ drives: {motor: {joint: a, angle: "t"}, second: {joint: d, angle: "0.5*t"}}
 }
 
 TEST_CASE("redundant joints of a model that stands at the origin are held by the others") {
-  // Everything at the origin: no node gives a length, rounding of turned axes remains.
+  // All nodes are at the origin, so that no node gives a length; rounding of turned axes remains.
   const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {rotor: {rotation_vector: [0.3, 0.2, 0.1], angular_velocity: [1, 2, 3]}}
 elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.1, 0.12, 0.15]}}
@@ -159,7 +159,7 @@ joints: {main: {type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [0, 
   const State turned = assembled("[]");
   CHECK((turned.nodes.back().R.col(2) - Vector3::UnitZ()).norm() < 1e-12);
   CHECK((turned.nodes.back().x - turned.nodes.back().R.col(0)).norm() < 1e-12);
-  // A node that is held in part is not turned.
+  // A node that is held in some directions is not turned.
   CHECK_THROWS_WITH(assembled("[z]"), Catch::Contains("joint 'main': its axes point in opposite directions"));
 }
 

@@ -93,7 +93,7 @@ TEST_CASE("no order above the allowed one is offered, and a choice lasts until t
   extrapolation.choose(2, 1);
   CHECK(extrapolation.order(5) == 2);
   CHECK_FALSE(extrapolation.wants_choice(1));
-  CHECK(extrapolation.wants_choice(10));  // the start has become worse
+  CHECK(extrapolation.wants_choice(10));  // the start of the iteration is worse
   for (int k = 0; k < 16; ++k) extrapolation.note(1);
   CHECK(extrapolation.wants_choice(1));
   Extrapolation none(3, -1);

@@ -62,7 +62,7 @@ TEST_CASE("the local error of a step is what the norm says") {
   for (const double rho : {0.0, 0.5, 0.8, 1.0}) {
     double ratio_before = 0;
     for (const double h : {4e-3, 2e-3, 1e-3}) {
-      // In the middle of its swing, where the rate of the acceleration is largest.
+      // The step is in the middle of its swing, where the rate of the acceleration is largest.
       const ReadyModel model(R"yaml(
 nodes: {m: {position: [1, 0, 0], velocity: [0.6, 0, 0], fixed: [y, z, rx, ry, rz]}}
 elements:
@@ -76,7 +76,7 @@ elements:
       const double estimate = integration.position_error()[0];
       integration.accept();
       const double error = 0.6 / (2 * pi) * std::sin(2 * pi * h) - x_of(model, integration.state());
-      // True over estimated goes to 1 with h.
+      // The ratio of the true to the estimated error approaches 1 with h.
       CHECK(error / estimate == Approx(1).margin(20 * h));
       ratio_before = error / estimate;
     }

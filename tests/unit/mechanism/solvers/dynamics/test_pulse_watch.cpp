@@ -157,7 +157,7 @@ void check_told(const Struck& struck) {
   INFO(struck.name);
   REQUIRE(coarse.size() == 1);
   CHECK_THAT(coarse[0], Catch::StartsWith(struck.name) && Catch::Contains("t = 0.52 s"));
-  // Steps of a fifth of its width resolve it.
+  // Steps of a fifth of the pulse's width resolve it.
   CHECK(march(model, 0.52, fixed_steps(2e-4)).warnings.empty());
 }
 
@@ -248,7 +248,7 @@ loads: {l: {node: m, force: [")yaml" +
   CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).warnings.empty());
   CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).warnings.size() == 1);
   CHECK(march(model_of("1e4 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).warnings.empty());
-  // A ripple of 3e-5 is nothing.
+  // A ripple of 3e-5 is negligible.
   CHECK(march(model_of("1e5 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).warnings.empty());
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("a step with condensed amplitudes is the step of the whole") {
   linear.factor(state, file.model.environment, weights, nullptr);
   VectorX x(system.size()), whole = -r;
   linear.solve(r, x);
-  constexpr double rounding = 1e-12;  // a hundred terms, entries that grow by some tens
+  constexpr double rounding = 1e-12;  // about a hundred terms, with entries that grow by several tens
   CHECK(backward_error(system, linear, x, r) < rounding);
   SparseLU factors(system.pattern());
   VectorX scale = VectorX::Ones(system.size());

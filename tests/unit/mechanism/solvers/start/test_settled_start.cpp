@@ -71,7 +71,7 @@ analysis: [{{type: dynamic, duration: 1e-3, step: 1e-3, start: {}}}]
 
 TEST_CASE("what is balanced to the accuracy of its loads is in equilibrium, though nothing holds it") {
   std::string report;
-  // 4e-6 N m under 100 N m on either side.
+  // The moments are 4e-6 N m under 100 N m on either side.
   CHECK(std::abs(settled_angle(balance(4e-8), report)) < 1e-6);
   CHECK(std::abs(settled_angle(balance(-4e-8), report)) < 1e-6);
   CHECK(std::abs(settled_angle(balance(0), report)) < 1e-6);
@@ -80,7 +80,7 @@ TEST_CASE("what is balanced to the accuracy of its loads is in equilibrium, thou
 
 TEST_CASE("what is out of balance goes down to where it hangs") {
   std::string report;
-  // The heavier side is down: a quarter of a turn.
+  // The heavier side is at the bottom: a quarter of a turn.
   CHECK(std::abs(settled_angle(balance(1e-2), report)) == Approx(M_PI / 2).epsilon(1e-5));
 }
 

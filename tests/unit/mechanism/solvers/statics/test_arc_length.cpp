@@ -98,7 +98,7 @@ TEST_CASE("a truss snaps through along its closed form, with both limit points, 
     REQUIRE(path.limits.size() == 2);
     CHECK_THAT(path.limits[0] * load, WithinRel(truss_load(truss_limit(1)), 1e-10));
     CHECK_THAT(path.limits[1] * load, WithinRel(truss_load(truss_limit(-1)), 1e-10));
-    if (steps == 40) CHECK(path.points.size() >= 12);  // none is longer than four fortieths of the way
+    if (steps == 40) CHECK(path.points.size() >= 12);  // no step is longer than four fortieths of the path
   }
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("a path ends exactly at a load factor, before and past limit points, a
   const ReadyModel model(loaded_truss);
   const double first = truss_load(truss_limit(1)) / load;
   CHECK(follow(model, until(0.999 * first)).end.factor == 0.999 * first);
-  CHECK(follow(model, until(-0.3)).end.factor == -0.3);  // sets off the other way
+  CHECK(follow(model, until(-0.3)).end.factor == -0.3);  // the path begins in the other direction
   // The path continues from its last point: over both limit points to the rising branch.
   Followed path = follow(model, until(model, "apex", -Vector3::UnitY(), 1.9));
   REQUIRE(path.limits.size() == 2);

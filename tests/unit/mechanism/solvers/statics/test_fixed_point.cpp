@@ -16,7 +16,7 @@ TEST_CASE("a fixed point is found in about as many iterations as it has slow dir
     x = iteration.next(x, solution + rates.cwiseProduct(x - solution));
   CHECK(count <= 8);
   CHECK((x - solution).norm() <= 1e-8);
-  // At the fixed point it stays.
+  // The iteration stays at the fixed point.
   for (int k = 0; k < 3; ++k) x = iteration.next(x, solution + rates.cwiseProduct(x - solution));
   CHECK((x - solution).norm() <= 1e-8);
 }

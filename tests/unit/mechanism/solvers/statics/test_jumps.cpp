@@ -53,7 +53,7 @@ TEST_CASE("an increment that jumps past a limit point says where, and how far") 
     const LoadJump& jump = report.log.jumps[0];
     CHECK(jump.factor == Approx(1 / 1.3).epsilon(1e-5));
     CHECK(jump.node == "apex");
-    // At the same load the apex hangs below, its springs stretched.
+    // At the same load the apex hangs below, and its springs are stretched.
     double low = -2, high = -h;
     while (high - low > 1e-12) {
       const double y = 0.5 * (low + high);

@@ -57,7 +57,7 @@ TEST_CASE("a link that can turn about its axis stays as drawn, and the summary n
 }
 
 TEST_CASE("a moment about an axis that nothing holds has no equilibrium") {
-  for (const double moment : {0.1, 1e-4}) {  // the smaller one turns the link a little in each iteration
+  for (const double moment : {0.1, 1e-4}) {  // the smaller one turns the link slightly in each iteration
     const MechanismFile file = read_mechanism_text(links(1, moment), "links.yaml");
     Session session(file.model);
     CHECK_THAT(message_of<ComputationError>([&] { compute_statics(session, {}); }),

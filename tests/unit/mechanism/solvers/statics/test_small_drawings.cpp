@@ -57,7 +57,7 @@ TEST_CASE("the size of a mechanism is not made of rounding") {
   state.nodes[1].x = state.nodes[2].x = Vector3::Zero();
   CHECK(spread(state) == 0);
   CHECK(model_extent(state) == 1);
-  // An equilibrium at the origin is found but for rounding.
+  // An equilibrium at the origin is found to rounding.
   state.nodes[2].x = Vector3(1.6e-16, 0, 0);
   CHECK(model_length(state) == 1);
   state.nodes[2].x = Vector3(0, 1e-9, 0);

@@ -130,7 +130,7 @@ loads: {f: {node: ball, force: [4, 0, 0]}}
 }
 
 TEST_CASE("after a motion a static analysis goes down to equilibrium in one step, from afar as well") {
-  // A hinged arm that stands up is to hang: nothing but inertia resists at first.
+  // A hinged arm that stands upright is to hang: at first only inertia resists.
   const ReadyModel model(R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {arm: {position: [0.01, 0, 1]}}

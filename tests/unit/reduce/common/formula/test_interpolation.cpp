@@ -83,7 +83,7 @@ TEST_CASE("A periodic spline repeats itself, and converges with fourth order to 
       CHECK_THAT(spline(at + 6 * M_PI).value, WithinAbs(spline(at).value, 1e-13));
       CHECK_THAT(spline(at - 4 * M_PI).slope, WithinAbs(spline(at).slope, 1e-12));
     }
-    // Smooth where the ends meet.
+    // The curve is smooth where its ends meet.
     const double end = 2 * M_PI - 1e-9;
     CHECK_THAT(spline(end).slope, WithinAbs(spline(0.0).slope, 1e-7));
     CHECK_THAT(spline(end).curvature, WithinAbs(spline(0.0).curvature, 1e-7));

@@ -85,7 +85,7 @@ TEST_CASE("fields follow from displacement and stress recovery, and strain from 
   const auto rows = written(outputs, q, before);
   for (Eigen::Index frame = 0; frame < q.cols(); ++frame) {
     const std::vector<double>& row = rows[static_cast<std::size_t>(frame)];
-    CHECK(row[before - 1] == -1);  // values of others do not change
+    CHECK(row[before - 1] == -1);  // the values of the others do not change
     const VectorX u = body.displacement_recovery * q.col(frame), s = body.stress_recovery * q.col(frame);
     const double* at = row.data() + before;
     CHECK((Eigen::Map<const VectorX>(at, 15) - u).norm() < 1e-15 * 7 * u.norm());
