@@ -101,6 +101,7 @@ class Convergence(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(finer)
             subprocess.run([PROGRAM, path, "-o", path + ".h5", "--quiet"], check=True, timeout=600)
+            cls.finest = path
             results = Results(path + ".h5")
             modes = results.file["/eigen"]
             cls.found.append(dict(zip(modes["name"].asstr(), modes["damped_frequency"][:])))
@@ -116,6 +117,16 @@ class Convergence(unittest.TestCase):
         for name, frequency in self.found[0].items():
             if frequency > 1e-3:
                 self.assertAlmostEqual(frequency / self.limit[name], 1, delta=1e-2, msg=name)
+
+    def test_fine_beams_have_constant_coefficients(self):
+        """Rounding of their stiffness is no coupling with further harmonics, of which up to 64 would be tried."""
+        path = self.finest + ".more.yaml"
+        with open(self.finest, encoding="utf-8") as file:
+            text = file.read().replace("count: 8", "count: 16").replace("rate: 6", "rate: 5.3926")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        done = subprocess.run([PROGRAM, path, "-o", path + ".h5"], check=True, capture_output=True, text=True, timeout=300)
+        self.assertIn("constant in multiblade coordinates", done.stdout)
 
     def test_blades_converge_with_the_fourth_order(self):
         coarse, middle, fine = self.found
