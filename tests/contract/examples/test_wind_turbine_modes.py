@@ -106,7 +106,7 @@ class Convergence(unittest.TestCase):
             modes = results.file["/eigen"]
             cls.found.append(dict(zip(modes["name"].asstr(), modes["damped_frequency"][:])))
             results.file.close()
-        # Of fourth order, the error of the finest is a fifteenth of its distance to the one before.
+        # The order is 4: the error of the finest beams is a fifteenth of their distance to the ones before.
         cls.limit = {name: fine + (fine - cls.found[1][name]) / 15 for name, fine in cls.found[2].items()}
 
     def test_the_modes_of_the_example_are_within_half_a_percent_of_the_limit(self):
