@@ -62,9 +62,9 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
                                             const HarmonicModes& from, int harmonics, Copies copies);
 
 /// Whether the modes satisfy the equations with one more harmonic, which shows that they are exact. One factorisation
-/// at a real shift serves all modes. Rounding of stiff equations may hide it.
-/// @param exact  largest change of an exponent by one inverse iteration, relative to the exponent and the rate, and of
-/// a shape
+/// at a real shift serves all modes. Rounding of very stiff equations may hide it.
+/// @param exact  largest change of an exponent by one inverse iteration, relative to the exponent and the rate; a shape
+/// may change by 1e-5
 bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, double exact);
 
 /// Sets the kind and the uncertainty of modes that were continued. @param options  those of the search

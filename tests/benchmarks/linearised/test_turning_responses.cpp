@@ -1,9 +1,13 @@
-// Frequency responses and state spaces of rotors behind a joint, against closed forms and periodic equations.
+// Frequency responses and state spaces of rotors behind a joint, against closed forms, periodic equations, and
+// equations that are linearised about a periodic motion (tests/references/turning_orbits.py, whose responses are known
+// to 1e-8).
 #include <cmath>
 
 #include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/state_space.hpp"
+#include "tests/benchmarks/linearised/gravity_models.hpp"
 #include "tests/benchmarks/linearised/turning_models.hpp"
+#include "tests/support/reference_table.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
@@ -174,6 +178,67 @@ TEST_CASE("forces on blades move blades as periodic equations say, also with a d
         CHECK(std::abs(found.response[f](seen / 2, forced) - H) < 1e-6 * std::abs(H));
       }
   }
+  CHECK(rotor.difference_of_state_space() < 1e-7);
+}
+
+TEST_CASE("blades under gravity respond as their nonlinear equations, linearised about their periodic motion",
+          "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  struct Case {
+    const char* name;
+    int count;
+    double first;
+  };
+  for (const Case& each : {Case{"two_blades", 2, 1}, Case{"unequal_blades", 3, 1.3}}) {
+    Turning rotor(blades(each.count, 60, springs, "rate: 6", 0.3, each.first), 6);
+    const std::string last = fmt::format("b{}", each.count - 1);
+    rotor.force("hub", Vector3::UnitY());
+    rotor.force("b0", Vector3::UnitZ());
+    rotor.moves("hub", Vector3::UnitY());
+    rotor.moves("hub", Vector3::UnitZ());
+    rotor.moves(last.c_str(), Vector3::UnitY());
+    rotor.options.frequencies = {0.4, 2.1};
+    const FrequencyResponse found = rotor.responses();
+    CHECK(found.turning->periodicity == Periodicity::periodic);
+    CHECK(found.turning->orbit_harmonics > 0);
+    const std::string outputs[] = {"hub", "up", last};
+    for (std::size_t f = 0; f < rotor.options.frequencies.size(); ++f)
+      for (const int forced : {0, 1}) {
+        Eigen::Vector3cd exact;
+        for (int seen = 0; seen < 3; ++seen) {
+          const std::string row = fmt::format("{}.{}.{}.{}", each.name, rotor.options.frequencies[f],
+                                              forced == 0 ? "hub" : "b0", outputs[seen]);
+          exact[seen] = {table(row + ".real"), table(row + ".imaginary")};
+        }
+        CAPTURE(each.name, rotor.options.frequencies[f], forced, exact, found.response[f].col(forced));
+        CHECK((found.response[f].col(forced) - exact).norm() < 2e-8 * exact.norm());
+      }
+    CHECK(rotor.difference_of_state_space() < 1e-7);
+  }
+}
+
+TEST_CASE("an unbalanced rotor that turns freely responds about its periodic motion", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  Turning rotor(unbalanced(), 7);
+  rotor.force("hub", Vector3::UnitX());
+  rotor.moment("rotor", Vector3::UnitZ());
+  rotor.moves("hub", Vector3::UnitX());
+  rotor.turns("rotor", Vector3::UnitZ());
+  rotor.options.frequencies = {0.5, 2.5};
+  const FrequencyResponse found = rotor.responses();
+  CHECK(found.turning->orbit_harmonics > 0);
+  const char* const names[] = {"hub", "rotor"};
+  for (std::size_t f = 0; f < rotor.options.frequencies.size(); ++f)
+    for (const int forced : {0, 1}) {
+      Eigen::Vector2cd exact;
+      for (const int seen : {0, 1}) {
+        const std::string row =
+            fmt::format("unbalance.{}.{}.{}", rotor.options.frequencies[f], names[forced], names[seen]);
+        exact[seen] = {table(row + ".real"), table(row + ".imaginary")};
+      }
+      CAPTURE(rotor.options.frequencies[f], forced, exact, found.response[f].col(forced));
+      CHECK((found.response[f].col(forced) - exact).norm() < 2e-8 * exact.norm());
+    }
   CHECK(rotor.difference_of_state_space() < 1e-7);
 }
 

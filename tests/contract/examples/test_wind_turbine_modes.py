@@ -1,11 +1,14 @@
-"""mechanism/examples/wind_turbine_modes.yaml: a tower against Rayleigh's quotient, and its critical speeds."""
+"""mechanism/examples/wind_turbine_modes.yaml: a tower against Rayleigh's quotient, its critical speeds, and finer beams."""
 
 import math
+import os
+import subprocess
+import tempfile
 import unittest
 
 import numpy as np
 
-from example import ExampleTest
+from example import EXAMPLES, PROGRAM, ExampleTest, Results
 
 LENGTH, ARM = 39, 1  # height of the tower, distance from its top to the axis [m]
 OUTER, INNER, YOUNG, DENSITY = 0.95, 0.92, 2.1e11, 7850
@@ -76,6 +79,60 @@ class WindTurbineModes(ExampleTest):
         for order in (1, 3):
             speeds = self.critical["speed"][self.critical["order"] == order]
             self.assertLess(np.abs(speeds * order / tower - 1).min(), 0.05)
+
+
+class Convergence(unittest.TestCase):
+    """Frequencies at 6 rad/s with 1, 2 and 4 times as many elements of blades and tower as the example has."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        with open(os.path.join(EXAMPLES, "wind_turbine_modes.yaml"), encoding="utf-8") as file:
+            text = file.read()
+        begin = text.index("  - {type: campbell")
+        cls.found = []
+        for times in (1, 2, 4):
+            finer = text[:begin] + "  - {type: eigen, count: 8, shapes: false, rotation: {joint: shaft, rate: 6, state: mean}}\n"
+            for elements in (4, 3):
+                assert finer.count(f"elements: {elements}\n") == 1
+                finer = finer.replace(f"elements: {elements}\n", f"elements: {times * elements} \n")
+            path = os.path.join(folder.name, f"{times}.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(finer)
+            subprocess.run([PROGRAM, path, "-o", path + ".h5", "--quiet"], check=True, timeout=600)
+            cls.finest = path
+            results = Results(path + ".h5")
+            modes = results.file["/eigen"]
+            cls.found.append(dict(zip(modes["name"].asstr(), modes["damped_frequency"][:])))
+            results.file.close()
+        # The order is 4: the error of the finest beams is a fifteenth of their distance to the ones before.
+        cls.limit = {name: fine + (fine - cls.found[1][name]) / 15 for name, fine in cls.found[2].items()}
+
+    def test_the_modes_of_the_example_are_within_half_a_percent_of_the_limit(self):
+        for name in ("1st tower fore-aft", "1st tower side-side", "1st blade flap, backward", "1st blade flap, collective", "1st blade flap, forward"):
+            self.assertAlmostEqual(self.found[0][name] / self.limit[name], 1, delta=5e-3, msg=name)
+
+    def test_faster_modes_are_within_one_percent_of_the_limit(self):
+        for name, frequency in self.found[0].items():
+            if frequency > 1e-3:
+                self.assertAlmostEqual(frequency / self.limit[name], 1, delta=1e-2, msg=name)
+
+    def test_fine_beams_have_constant_coefficients(self):
+        """Rounding of their stiffness is no coupling with further harmonics, of which up to 64 would be tried."""
+        path = self.finest + ".more.yaml"
+        with open(self.finest, encoding="utf-8") as file:
+            text = file.read().replace("count: 8", "count: 16").replace("rate: 6", "rate: 5.3926")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        done = subprocess.run([PROGRAM, path, "-o", path + ".h5"], check=True, capture_output=True, text=True, timeout=300)
+        self.assertIn("constant in multiblade coordinates", done.stdout)
+
+    def test_blades_converge_with_the_fourth_order(self):
+        coarse, middle, fine = self.found
+        for name in ("1st blade flap, backward", "1st blade flap, collective", "1st blade flap, forward", "2nd blade flap, backward"):
+            order = math.log2((middle[name] - coarse[name]) / (fine[name] - middle[name]))
+            self.assertGreater(order, 3.5, name)
 
 
 if __name__ == "__main__":
