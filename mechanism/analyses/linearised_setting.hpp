@@ -9,14 +9,18 @@
 #include "mechanism/solvers/linearised/equations.hpp"
 #include "mechanism/solvers/linearised/harmonic_modes.hpp"
 #include "mechanism/solvers/linearised/steadiness.hpp"
+#include "mechanism/solvers/linearised/steady_rotation.hpp"
 
 namespace bielle::mechanism {
 
 struct LinearisedSetting {
   ModeAxes axes = ModeAxes::inertial;
   std::optional<Steadiness> steadiness;  ///< empty at rest
-  double unbalance = 0;                  ///< at rest: largest residual force relative to the largest acting force
-  std::string unbalanced;                ///< equation of this residual force: "force y at node 'pin'"
+  /// In steady rotation as a whole: acceleration [m/s^2] of a node by forces that keep their direction, and the node.
+  double leaving = 0;
+  std::string leaving_node;
+  double unbalance = 0;    ///< at rest: largest residual force relative to the largest acting force
+  std::string unbalanced;  ///< equation of this residual force: "force y at node 'pin'"
   /// In steady rotation behind a joint: dependence of the equations on the azimuth; the fields above are not set.
   struct Turning {
     std::string joint;  ///< its description: "joint 'shaft'"
@@ -41,6 +45,8 @@ struct LinearisedSetting {
   std::vector<std::string> delays;
 };
 
-LinearisedSetting linearised_setting(const System& system, const Environment& environment, const State& state);
+/// @param rotation  steady rotation into which the whole mechanism was brought
+LinearisedSetting linearised_setting(const System& system, const Environment& environment, const State& state,
+                                     const std::optional<SteadyRotation>& rotation);
 
 }  // namespace bielle::mechanism

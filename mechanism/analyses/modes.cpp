@@ -115,7 +115,7 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
     report.delays = describe_delays(session.model());
     return report;
   }
-  static_cast<LinearisedSetting&>(report) = linearised_setting(system, environment, state);
+  static_cast<LinearisedSetting&>(report) = linearised_setting(system, environment, state, options.rotation);
   report.delays = describe_delays(session.model());
   if (options.axes) report.axes = *options.axes;
   report.equations =

@@ -20,7 +20,7 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
     make_turning(system, inputs);
     return;
   }
-  setting_ = turning_ ? turning_->setting({}) : linearised_setting(system, about_.environment, about_.state);
+  setting_ = turning_ ? turning_->setting({}) : linearised_setting(system, about_.environment, about_.state, rotation);
   equations_ = turning_ ? turning_->periodic.first()
                         : linearised_equations(system, about_.environment, about_.state, setting_.axes);
   rows_.resize(static_cast<std::size_t>(equations_.unknowns()));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -125,6 +126,43 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
   steadiness.inertial = change(system, environment, state, later, steadiness.rate, ModeAxes::inertial);
   steadiness.turning = change(system, environment, state, later, steadiness.rate, ModeAxes::turning);
   return steadiness;
+}
+
+LeavingRotation leaving_rotation(const System& system, const Environment& environment, const State& state,
+                                 const Vector3& omega, const Vector3& through) {
+  constexpr double angle = 1;
+  const Vector3 turn = angle * omega.normalized();
+  const Matrix3 R = exp_so3(turn);
+  VectorX dq = VectorX::Zero(system.dofs());
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
+    const NodeState& node = state.nodes[k];
+    const int translations = freedom.count - freedom.rotations;
+    const Vector3 arm = node.x - through;
+    dq.segment(freedom.begin, translations) = freedom.G.topLeftCorner(3, translations).transpose() * (R * arm - arm);
+    if (freedom.rotations == 3) dq.segment<3>(freedom.begin + translations) = node.R.transpose() * turn;
+  }
+  State turned = state;
+  turned.time += angle / omega.norm();  // of prescribed motions
+  system.displace(turned, state, dq);
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    turned.nodes[k].v = R * state.nodes[k].v;
+    turned.nodes[k].a = R * state.nodes[k].a;
+  }
+  VectorX v(system.dofs()), a(system.dofs());
+  system.get_rates(turned, v, a);
+  system.set_rates(turned, v, a);
+  make_accelerations_consistent(system, environment, turned);
+  const double rate = omega.norm(), centripetal = rate * rate * model_length(state);
+  LeavingRotation leaving;
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    if (system.kinematics().freedom(static_cast<int>(k)).count == 0) continue;
+    const double change = (turned.nodes[k].a - R * state.nodes[k].a).norm() / centripetal;
+    if (change <= leaving.acceleration) continue;
+    leaving.acceleration = change;
+    leaving.node = static_cast<int>(k);
+  }
+  return leaving;
 }
 
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {

@@ -34,6 +34,17 @@ struct Steadiness {
 /// no value if it is at rest, or so slow that velocities do not matter.
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state);
 
+/// Acceleration by which a mechanism leaves a steady rotation, since forces keep their direction while it turns.
+struct LeavingRotation {
+  double acceleration = 0;  ///< of a node, relative to the centripetal accelerations
+  int node = -1;
+};
+
+/// Finds the node whose acceleration, after a part of a turn about an axis, differs most from the turned one.
+/// @param state  in steady rotation @param omega  [rad/s] @param through  point of the axis [m]
+LeavingRotation leaving_rotation(const System& system, const Environment& environment, const State& state,
+                                 const Vector3& omega, const Vector3& through);
+
 /// Returns the largest inertial force of a state at rest relative to the largest acting force: zero in equilibrium.
 /// @param equation  receives the equation with the largest force
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation);

@@ -1,5 +1,6 @@
 // Modes of mechanisms in motion: whirl, rotating beams, tops.
 #include "mechanism/analyses/modes.hpp"
+#include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 #include "tests/support/reference_table.hpp"
@@ -40,6 +41,28 @@ TEST_CASE("a spinning disc tilts forwards and backwards with different frequenci
     check_rates(rates_of(report), exact, 1e-9);
     for (const Mode& mode : report.found.modes) CHECK(std::abs(mode.damping_ratio()) < 1e-9);
   }
+}
+
+TEST_CASE("a steady rotation as a whole tells of forces that do not turn with it", "[linearised]") {
+  const auto setting = [](const std::string& gravity) {
+    const std::string support = "type: bearing, nodes: [ground, disc], axis: [0, 0, 1], radial: {stiffness: 2e5}";
+    const ModesOf model(
+        fmt::format("gravity: {}\nnodes: {{disc: {{}}}}\nelements:\n"
+                    "  disc: {{type: rigid_body, node: disc, mass: 5, inertia: [0.02, 0.02, 0.035]}}\n"
+                    "joints:\n  low: {{{1}, position: [0, 0, -0.1], axial: {{stiffness: 3e5}}}}\n"
+                    "  high: {{{1}, position: [0, 0, 0.1]}}\n",
+                    gravity, support));
+    ModesOptions options;
+    options.rotation = SteadyRotation{Vector3(0, 0, 50), Vector3::Zero()};
+    return static_cast<LinearisedSetting>(compute_modes(model.session, options));
+  };
+  CHECK(setting("[0, 0, -9.81]").leaving == 0);
+  CHECK(setting("[0, 0, 0]").leaving == 0);
+  // Turned by one radian, the disc meets the weight from another side.
+  const LinearisedSetting across = setting("[3, -4, 0]");
+  CHECK(across.leaving == Approx(2 * std::sin(0.5) * 5).epsilon(1e-6));
+  CHECK(across.leaving_node == "disc");
+  CHECK_THAT(format_setting(across, "modes"), Catch::Contains("accelerate node 'disc'"));
 }
 
 TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[linearised]") {
@@ -137,6 +160,7 @@ TEST_CASE("a rigid blade on a flapping hinge in rotation swings with the speed",
                     rate, e));
     const ModesReport report = compute_modes(model.session, {{}, SteadyRotation{Vector3(0, 0, rate), Vector3::Zero()}});
     CHECK(report.steadiness->steady());
+    CHECK(report.leaving == 0);
     check_rates(rates_of(report), {rate * std::sqrt(1 + 1.5 * e)}, 1e-9);
   }
 }
