@@ -249,36 +249,17 @@ int HarmonicSearch::most_affordable() const {
   return std::clamp((unknowns / equations_.first().unknowns() - 1) / 2, least, most);
 }
 
-/// Searches around modes of nearby equations until further harmonics change no exponent. Rigid modes are kept as they
-/// are. @returns nothing if `most` harmonics do not suffice, or if one of the motions is not found
-std::optional<HarmonicModes> HarmonicSearch::resolved_around(HarmonicModes nearby, int most) const {
-  const auto others = std::stable_partition(nearby.modes.begin(), nearby.modes.end(), is_rigid);
-  const std::vector<HarmonicMode> rigid(nearby.modes.begin(), others);
-  nearby.modes.erase(nearby.modes.begin(), others);
-  const int most_searched = 2 * most / 3;
-  constexpr int few = 6;
-  for (int h = std::max(few, nearby.harmonics), before = 0; h > before; before = h, h = std::min(2 * h, most_searched)) {
-    std::optional<HarmonicModes> modes = find_modes_around(equations_, shapes_, nearby, h);
-    if (modes) modes = converged(*std::move(modes), most);
-    if (!modes) continue;
-    for (HarmonicMode each : rigid) {
-      each.u = widened(each.u, modes->harmonics);
-      each.w = widened(each.w, modes->harmonics);
-      each.mode.u = equations_.coefficients(each.u);
-      each.mode.w = equations_.coefficients(each.w);
-      modes->modes.push_back(std::move(each));
-    }
-    return modes;
-  }
-  return std::nullopt;
-}
-
 HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const {
-  const int most = most_affordable();
+  const int most = most_affordable(), most_searched = 2 * most / 3;
   std::optional<HarmonicModes> modes =
       continue_modes(equations_, shapes_, mean, std::max({1, least, mean.harmonics}), Copies::continued);
   if (modes) modes = converged(*std::move(modes), most);
-  if (!modes) modes = resolved_around(mean, most);
+  constexpr int few = 6;
+  const int first = std::max(few, mean.harmonics);
+  for (int h = first, before = 0; !modes && h > before; before = h, h = std::min(2 * h, most_searched)) {
+    modes = find_modes_around(equations_, shapes_, mean, h);
+    if (modes) modes = converged(*std::move(modes), most);
+  }
   if (modes) {
     HarmonicModes more = *modes;
     if (add_resonant_motions(equations_, shapes_, more)) {
@@ -294,16 +275,15 @@ HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOpt
   return in_place;
 }
 
-/// The search finds all copies, whose number grows with the harmonics: large equations are searched with few harmonics,
-/// and then around the modes that these have.
+/// The search finds all copies, whose number grows with the harmonics: large equations are searched with one harmonic.
 HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least) const {
   constexpr int most = 64, most_searched = 16;
   const auto counts_shift_twice = [&](const HarmonicModes& modes) {
     return shapes_.any_shift() && std::count_if(modes.modes.begin(), modes.modes.end(), is_rigid) > 1;
   };
-  constexpr int small = 1000, most_here = 40;
-  const auto unknowns = [&](int harmonics) { return (2 * harmonics + 1) * equations_.first().unknowns(); };
-  HarmonicModes modes = find_with(options, unknowns(least) <= small ? std::max(1, least) : 1);
+  constexpr int small = 1000;  // unknowns of the harmonics
+  const bool at_once = (2 * least + 1) * equations_.first().unknowns() <= small;
+  HarmonicModes modes = find_with(options, at_once ? std::max(1, least) : 1);
   for (bool continued = false;;) {
     const int h = modes.harmonics, more = std::max(least, next_harmonics(h));
     modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
@@ -319,12 +299,6 @@ HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least)
       modes.change = next->change;
       if (continued) judge_modes(modes, options);
       return modes;
-    }
-    if (!next && !options.near && unknowns(next_harmonics(h)) > small) {
-      if (std::optional<HarmonicModes> around = resolved_around(modes, most_here)) {
-        complete(options, *around);
-        return *std::move(around);
-      }
     }
     if (next_harmonics(h) > (next ? most : most_searched)) throw_unresolved(h, next ? next->change : 0);
     continued = next.has_value();

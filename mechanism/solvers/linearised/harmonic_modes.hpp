@@ -42,7 +42,6 @@ class HarmonicSearch {
   HarmonicModes find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const;
   std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
   std::optional<HarmonicModes> converged(HarmonicModes modes, int most) const;
-  std::optional<HarmonicModes> resolved_around(HarmonicModes nearby, int most) const;
   int most_affordable() const;
   void complete(const ModeOptions& options, HarmonicModes& modes) const;
   void add_shift(HarmonicModes& result) const;
