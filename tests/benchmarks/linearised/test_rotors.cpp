@@ -47,7 +47,7 @@ TEST_CASE("a steady rotation as a whole tells of forces that do not turn with it
   const auto setting = [](const std::string& gravity) {
     const std::string support = "type: bearing, nodes: [ground, disc], axis: [0, 0, 1], radial: {stiffness: 2e5}";
     const ModesOf model(
-        fmt::format("gravity: {}\nnodes: {{disc: {{}}}}\nelements:\n"
+        fmt::format("gravity: {0}\nnodes: {{disc: {{}}}}\nelements:\n"
                     "  disc: {{type: rigid_body, node: disc, mass: 5, inertia: [0.02, 0.02, 0.035]}}\n"
                     "joints:\n  low: {{{1}, position: [0, 0, -0.1], axial: {{stiffness: 3e5}}}}\n"
                     "  high: {{{1}, position: [0, 0, 0.1]}}\n",
