@@ -71,7 +71,8 @@ std::string format_axes(const LinearisedSetting& setting, const char* what) {
                                  setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
   if (setting.leaving > 0)
     text += fmt::format(
-        "  warning: forces that keep their direction while the mechanism turns, as gravity across the axis does, accelerate "
+        "  warning: forces that keep their direction while the mechanism turns, as gravity across the axis does, "
+        "accelerate "
         "node '{}' by {:.3g} m/s^2: {} are those of a deflection by them that turns as well; leave them out, or let "
         "`rotation` name the joint behind which the rotor turns\n",
         setting.leaving_node, setting.leaving, what);

@@ -143,7 +143,7 @@ LeavingRotation leaving_rotation(const System& system, const Environment& enviro
     if (freedom.rotations == 3) dq.segment<3>(freedom.begin + translations) = node.R.transpose() * turn;
   }
   State turned = state;
-  turned.time += angle / omega.norm();  // of prescribed motions
+  turned.time += angle / omega.norm();  // prescribed motions depend on it
   system.displace(turned, state, dq);
   for (std::size_t k = 0; k < state.nodes.size(); ++k) {
     turned.nodes[k].v = R * state.nodes[k].v;

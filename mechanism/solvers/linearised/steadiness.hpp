@@ -36,7 +36,7 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
 
 /// Acceleration by which a mechanism leaves a steady rotation, since forces keep their direction while it turns.
 struct LeavingRotation {
-  double acceleration = 0;  ///< of a node, relative to the centripetal accelerations
+  double acceleration = 0;  ///< the largest of a node, relative to the centripetal accelerations
   int node = -1;
 };
 
