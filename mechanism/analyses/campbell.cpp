@@ -100,6 +100,7 @@ class CampbellStates {
       // Forward whirl has the sense of the speed; without rotation there is neither forward nor backward whirl.
       sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
     }
+    if (found_->standing.empty()) found_->standing = report.standing;
     if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
         std::count(found_->unsteady.begin(), found_->unsteady.end(), value) == 0)
       found_->unsteady.push_back(value);

@@ -16,9 +16,8 @@ namespace bielle::mechanism {
 struct LinearisedSetting {
   ModeAxes axes = ModeAxes::inertial;
   std::optional<Steadiness> steadiness;  ///< empty at rest
-  /// In steady rotation as a whole: acceleration [m/s^2] of a node by forces that keep their direction, and the node.
-  double leaving = 0;
-  std::string leaving_node;
+  /// In steady rotation as a whole: the largest force that keeps its direction, "49 N at node 'disc'"; empty: none.
+  std::string standing;
   double unbalance = 0;    ///< at rest: largest residual force relative to the largest acting force
   std::string unbalanced;  ///< equation of this residual force: "force y at node 'pin'"
   /// In steady rotation behind a joint: dependence of the equations on the azimuth; the fields above are not set.

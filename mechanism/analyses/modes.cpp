@@ -27,7 +27,7 @@ namespace {
 
 [[noreturn]] void throw_singular() {
   throw ComputationError(
-      "there are no modes: some unknown is not determined at any frequency (`eigen` of the mechanism at rest tells "
+      "there are no modes: some unknown is undetermined at every frequency (`eigen` of the mechanism at rest tells "
       "which)");
 }
 

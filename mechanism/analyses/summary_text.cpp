@@ -69,13 +69,13 @@ std::string format_axes(const LinearisedSetting& setting, const char* what) {
                                                setting.unbalanced, setting.unbalance, what);
   std::string text = fmt::format("  in motion, seen in axes that {}\n",
                                  setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
-  if (setting.leaving > 0)
+  if (!setting.standing.empty())
     text += fmt::format(
-        "  warning: forces that keep their direction while the mechanism turns, as gravity across the axis does, "
-        "accelerate "
-        "node '{}' by {:.3g} m/s^2: {} are those of a deflection by them that turns as well; leave them out, or let "
-        "`rotation` name the joint behind which the rotor turns\n",
-        setting.leaving_node, setting.leaving, what);
+        "  warning: forces keep their direction while the mechanism turns, as gravity across the axis does ({}): {} "
+        "are "
+        "those about a deflection by them that turns as well; leave these forces out, or let `rotation` name the "
+        "joint behind which the rotor turns\n",
+        setting.standing, what);
   if (!setting.steadiness->steady())
     text += fmt::format(
         "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and {} are "

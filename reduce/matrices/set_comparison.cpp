@@ -191,7 +191,7 @@ void compare_orthogonality(const MatrixStudy& a, const MatrixStudy& b, const Ela
     crossed = transposed_product(of_a.vectors, a.mass * *moved);
   } else {
     subject.lines.push_back(
-        "cross-orthogonality cannot be computed: either body has unknowns without a counterpart in the other");
+        "cross-orthogonality cannot be computed: each body has unknowns without a counterpart in the other");
     return;
   }
   std::string matched, others;

@@ -95,7 +95,7 @@ std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, con
                   place_name(mesh.points.col(SolidCells(mesh).nodes(cells[0])(0)))));
 }
 
-// PlaneSides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
+// Sides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
 std::map<int, PlaneSides> sides_of_pieces(const std::vector<PlaneSides>& sides, const std::vector<int>& pieces) {
   std::map<int, std::map<PlaneSides, int>> votes;
   for (std::size_t e = 0; e < sides.size(); ++e) ++votes[pieces[e]][sides[e]];

@@ -14,6 +14,8 @@ def share(items):
     part, turn = os.environ.get("BIELLE_SHARE", "all"), int(os.environ.get("BIELLE_TURN") or 0)
     if part not in ("everyday", "rest", "all"):
         raise ValueError(f"BIELLE_SHARE is '{part}', expected 'everyday', 'rest' or 'all'")
+    if part != "all" and len(items) < 3:
+        raise ValueError("fewer than three cases have no thirds")
     return [item for k, item in enumerate(items) if part == "all" or (k % 3 == turn % 3) == (part == "everyday")]
 
 

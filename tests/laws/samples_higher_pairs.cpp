@@ -50,7 +50,7 @@ std::vector<Sample> tyre_samples() {
       variant(higher_pair("tyre",
                           place + ", curve: force.csv, damping: 0.4, speed: 0.6, " + slip +
                               "}, road: {table: road.csv, along: [1, 0.2, 0]}",
-                          {{"curve", "pulls.csv", "pushes"},
+                          {{"curve", "pulls.csv", "positive and does not fall"},
                            {"curve", "preload.csv", "expected 0"},
                            {"road.table", "none.csv", "no such file"},
                            {"road.table", "narrow.csv", "valley"},

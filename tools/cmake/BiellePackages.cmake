@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbielle-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Flexible mechanisms by finite elements: libraries
  Static libraries and headers, by which C++ programs compute mechanisms.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libarpack2-dev, libhdf5-dev, libyaml-dev, libudunits2-dev, nlohmann-json3-dev, libmuparser-dev, libcli11-dev, libfmt-dev, libgmsh-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "bielle, libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libarpack2-dev, libhdf5-dev, libyaml-dev, libudunits2-dev, nlohmann-json3-dev, libmuparser-dev, libcli11-dev, libfmt-dev, libgmsh-dev")
 
 get_property(packaged GLOBAL PROPERTY BIELLE_LIBRARIES)
 list(APPEND packaged bielle-reduce bielle-gmsh bielle-mechanism)

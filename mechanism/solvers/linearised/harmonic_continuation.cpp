@@ -147,6 +147,22 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
   return modes;
 }
 
+namespace {
+
+/// Whether another exponent, or a conjugate one, differs from this one by about a multiple of i rate: even a weak
+/// coupling by a further harmonic then changes both.
+bool is_resonant(const HarmonicModes& modes, const Mode& mode, double rate, double near) {
+  return std::any_of(modes.modes.begin(), modes.modes.end(), [&](const HarmonicMode& other) {
+    for (const Complex s : {other.mode.s, std::conj(other.mode.s)}) {
+      const double turns = std::round((mode.s - s).imag() / rate);
+      if (turns != 0 && std::abs(mode.s - s - Complex(0, turns * rate)) < near) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace
+
 bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, double exact) {
   const int more = modes.harmonics + 1;
   const LinearisedEquations next = equations.of_harmonics(more);
@@ -154,8 +170,8 @@ bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, d
   for (const auto& [mode, u, w, whirl] : modes.modes)
     if (mode.kind != ModeKind::rigid) slowest = std::min(slowest, std::abs(mode.s));
   if (!std::isfinite(slowest)) return true;
-  // An exponent changes by the product of the coupling with a further harmonic and that back. Rounding of stiff beams
-  // couples them by more than the exponents may change.
+  // An exponent without a resonance changes by the product of the coupling with a further harmonic and that back.
+  // Rounding of stiff beams couples them by more than the exponents may change.
   constexpr double coupled = 1e-5;
   constexpr double beyond_copies = 1.37;  // a shift off the real eigenvalues of the modes and of their copies
   const ShiftedOperator T(next, beyond_copies * std::max(slowest, std::abs(equations.rate())));
@@ -169,7 +185,8 @@ bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, d
     const Eigen::VectorXcd y = T.apply(x);
     const Complex mu = x.dot(y) / x.squaredNorm();
     const double size = std::max(std::abs(mode.s), std::abs(equations.rate()));
-    if (!(std::abs(T.shift() + 1.0 / mu - mode.s) < exact * size && (y / mu - x).norm() < coupled * x.norm()))
+    const double most = is_resonant(modes, mode, equations.rate(), coupled * size) ? exact : coupled;
+    if (!(std::abs(T.shift() + 1.0 / mu - mode.s) < exact * size && (y / mu - x).norm() < most * x.norm()))
       return false;
   }
   return true;

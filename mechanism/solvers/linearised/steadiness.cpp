@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
@@ -101,6 +102,54 @@ double change(const System& system, const Environment& environment, const State&
   return 0;  // the search for modes will report this error
 }
 
+/// Returns the increments of the dofs by a rotation vector about an axis through a point.
+VectorX increments_of_turn(const System& system, const State& state, const Vector3& turn, const Vector3& through) {
+  const Matrix3 R = exp_so3(turn);
+  VectorX dq = VectorX::Zero(system.dofs());
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
+    const NodeState& node = state.nodes[k];
+    const int translations = freedom.count - freedom.rotations;
+    const Vector3 arm = node.x - through;
+    dq.segment(freedom.begin, translations) = freedom.G.topLeftCorner(3, translations).transpose() * (R * arm - arm);
+    if (freedom.rotations == 3) dq.segment<3>(freedom.begin + translations) = node.R.transpose() * turn;
+  }
+  return dq;
+}
+
+/// Returns the largest force at a node, relative to the acting forces, by accelerations that vary by `change`.
+std::optional<StandingForce> force_of(const System& system, const Environment& environment, const State& state,
+                                      const VectorX& change) {
+  const LinearisedEquations equations = linearised_equations(system, environment, state, ModeAxes::inertial);
+  const int n = system.dofs();
+  const VectorX force = equations.M.topLeftCorner(n, n) * change;
+  VectorX extents = VectorX::Ones(equations.K.cols());
+  double farthest = 0;
+  for (const NodeState& node : state.nodes) farthest = std::max(farthest, node.x.norm());
+  for (int i = 0; i < n; ++i)
+    if (system.kind(i) == Kind::translation) extents[i] = farthest;
+  constexpr double eps = 64 * 0x1p-52;  // of positions, whose rounding stiff parts turn into forces
+  const VectorX rounding = eps * (equations.K.cwiseAbs() * extents);
+  VectorX r(system.size());
+  ResidualScale scale;
+  system.residual(state, environment, r, &scale);
+  std::optional<StandingForce> found;
+  double most = 1e-8;  // of the largest acting force
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
+    const int translations = freedom.count - freedom.rotations;
+    for (const bool moment : {false, true}) {
+      const int begin = freedom.begin + (moment ? translations : 0), count = moment ? freedom.rotations : translations;
+      if (count == 0) continue;
+      const double size = force.segment(begin, count).norm(), acting = scale[system.kind(begin)];
+      if (size <= rounding.segment(begin, count).norm() || size <= most * acting) continue;
+      most = size / acting;
+      found = StandingForce{size / std::numbers::sqrt2, static_cast<int>(k), moment};
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 ModeAxes Steadiness::axes() const {
@@ -128,41 +177,26 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
   return steadiness;
 }
 
-LeavingRotation leaving_rotation(const System& system, const Environment& environment, const State& state,
-                                 const Vector3& omega, const Vector3& through) {
-  constexpr double angle = 1;
+std::optional<StandingForce> standing_force(const System& system, const Environment& environment, const State& state,
+                                            const Vector3& omega, const Vector3& through) {
+  const double angle = 0.5 * std::numbers::pi;
   const Vector3 turn = angle * omega.normalized();
   const Matrix3 R = exp_so3(turn);
-  VectorX dq = VectorX::Zero(system.dofs());
-  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
-    const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
-    const NodeState& node = state.nodes[k];
-    const int translations = freedom.count - freedom.rotations;
-    const Vector3 arm = node.x - through;
-    dq.segment(freedom.begin, translations) = freedom.G.topLeftCorner(3, translations).transpose() * (R * arm - arm);
-    if (freedom.rotations == 3) dq.segment<3>(freedom.begin + translations) = node.R.transpose() * turn;
-  }
-  State turned = state;
+  State before = state;
+  make_accelerations_consistent(system, environment, before);
+  State turned = before;
   turned.time += angle / omega.norm();  // prescribed motions depend on it
-  system.displace(turned, state, dq);
-  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
-    turned.nodes[k].v = R * state.nodes[k].v;
-    turned.nodes[k].a = R * state.nodes[k].a;
+  VectorX v(system.dofs()), expected(system.dofs()), a(system.dofs());
+  system.displace(turned, before, increments_of_turn(system, before, turn, through));
+  for (std::size_t k = 0; k < before.nodes.size(); ++k) {
+    turned.nodes[k].v = R * before.nodes[k].v;
+    turned.nodes[k].a = R * before.nodes[k].a;
   }
-  VectorX v(system.dofs()), a(system.dofs());
-  system.get_rates(turned, v, a);
-  system.set_rates(turned, v, a);
+  system.get_rates(turned, v, expected);
+  system.set_rates(turned, v, expected);
   make_accelerations_consistent(system, environment, turned);
-  const double rate = omega.norm(), centripetal = rate * rate * model_length(state);
-  LeavingRotation leaving;
-  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
-    if (system.kinematics().freedom(static_cast<int>(k)).count == 0) continue;
-    const double change = (turned.nodes[k].a - R * state.nodes[k].a).norm() / centripetal;
-    if (change <= leaving.acceleration) continue;
-    leaving.acceleration = change;
-    leaving.node = static_cast<int>(k);
-  }
-  return leaving;
+  system.get_rates(turned, v, a);
+  return force_of(system, environment, turned, VectorX(a - expected));
 }
 
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {

@@ -34,16 +34,19 @@ struct Steadiness {
 /// no value if it is at rest, or so slow that velocities do not matter.
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state);
 
-/// Acceleration by which a mechanism leaves a steady rotation, since forces keep their direction while it turns.
-struct LeavingRotation {
-  double acceleration = 0;  ///< the largest of a node, relative to the centripetal accelerations
+/// A force, or moment, that keeps its direction while the mechanism turns.
+struct StandingForce {
+  double size = 0;  ///< its part across the axis [N], [N m]
   int node = -1;
+  bool moment = false;
 };
 
-/// Finds the node whose acceleration, after a part of a turn about an axis, differs most from the turned one.
-/// @param state  in steady rotation @param omega  [rad/s] @param through  point of the axis [m]
-LeavingRotation leaving_rotation(const System& system, const Environment& environment, const State& state,
-                                 const Vector3& omega, const Vector3& through);
+/// Returns the largest force at a node that does not turn with a mechanism in steady rotation as a whole, relative to
+/// the acting forces: the mechanism is turned by a right angle, and the change of its accelerations is multiplied by
+/// the masses. There is no value if rounding explains it.
+/// @param omega  [rad/s] @param through  point of the axis [m]
+std::optional<StandingForce> standing_force(const System& system, const Environment& environment, const State& state,
+                                            const Vector3& omega, const Vector3& through);
 
 /// Returns the largest inertial force of a state at rest relative to the largest acting force: zero in equilibrium.
 /// @param equation  receives the equation with the largest force

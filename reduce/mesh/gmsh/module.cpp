@@ -6,5 +6,5 @@
 
 extern "C" __attribute__((visibility("default"))) const bielle::reduce::GmshWork bielle_gmsh_work;
 
-const bielle::reduce::GmshWork bielle_gmsh_work = {bielle::reduce::import_source, bielle::reduce::describe_source,
-                                                   bielle::reduce::surface_of_source};
+const bielle::reduce::GmshWork bielle_gmsh_work = {
+    {}, bielle::reduce::import_source, bielle::reduce::describe_source, bielle::reduce::surface_of_source};

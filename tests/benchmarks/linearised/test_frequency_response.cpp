@@ -189,7 +189,7 @@ TEST_CASE("inputs that act on nothing are refused, and the summary says what the
       "model.yaml");
   Session session(file.model);
   CHECK_THAT(file.analyses[0]->run(session).text,
-             Catch::Contains("no equilibrium") && Catch::Contains("responses are those of the equations"));
+             Catch::Contains("not in equilibrium") && Catch::Contains("responses are those of the equations"));
 }
 
 }  // namespace test_frequency_response

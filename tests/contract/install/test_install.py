@@ -52,7 +52,7 @@ class Install(unittest.TestCase):
             done = subprocess.run(command, capture_output=True, text=True, check=False)
         finally:
             os.rename(module + ".sound", module)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn(f"the module that reads and meshes bodies by gmsh cannot be loaded: {module}: ", done.stderr)
         self.assertIn("install Bielle again", done.stderr)
 

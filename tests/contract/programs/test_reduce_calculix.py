@@ -16,7 +16,6 @@ from test_reduce_matrices import Matrices
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.exchange import calculix_matrices, formats  # noqa: E402
-from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 LENGTH, WIDTH, THICKNESS = 1.0, 0.1, 0.02  # the strip of shells
 SIDE, YOUNG, DENSITY = 0.05, 7e9, 2700.0     # the rod of tetrahedra, soft enough for its bending to matter
