@@ -128,13 +128,13 @@ std::optional<StandingForce> force_of(const System& system, const Environment& e
   for (const NodeState& node : state.nodes) farthest = std::max(farthest, node.x.norm());
   for (int i = 0; i < n; ++i)
     if (system.kind(i) == Kind::translation) extents[i] = farthest;
-  constexpr double eps = 64 * 0x1p-52;  // of positions, whose rounding stiff parts turn into forces
+  constexpr double eps = 64 * 0x1p-52;  // stiff parts turn rounding of positions into forces
   const VectorX rounding = eps * (equations.K.cwiseAbs() * extents);
   VectorX r(system.size());
   ResidualScale scale;
   system.residual(state, environment, r, &scale);
   std::optional<StandingForce> found;
-  double most = 1e-8;  // of the largest acting force
+  double most = 1e-8;  // relative to the largest acting force
   for (std::size_t k = 0; k < state.nodes.size(); ++k) {
     const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
     const int translations = freedom.count - freedom.rotations;

@@ -182,7 +182,7 @@ TEST_CASE("forces on blades move blades as periodic equations say, also with a d
 }
 
 TEST_CASE("blades under gravity respond as their nonlinear equations, linearised about their periodic motion",
-          "[linearised]") {
+          "[linearised][long]") {
   const ReferenceTable table("turning_orbits");
   struct Case {
     const char* name;

@@ -14,6 +14,7 @@ import numpy as np
 
 from command import PROGRAMS, CommandTest
 from in_folder import REPOSITORY
+from shares import share_of_tests as load_tests  # noqa: F401
 
 SHAPES = """, shape: [{box: [0.4, 0.2, 0.1], position: [0.1, 0, 0], rotation_vector: [0, 0, pi/2], colour: steelblue, opacity: 0.5},
          {ring: [0.3, 0.05]}, {stl: part.stl, scale: 0.001}, {stl: part.stl, scale: 0.001, colour: red}, {stl: part.stl}]"""

@@ -123,8 +123,8 @@ TEST_CASE("lengths are metres whatever the unit of the file") {
   }
 }
 
-TEST_CASE(
-    "the volume of a meshed cylinder converges to pi r^2 h, with order 2 for straight and 4 for curved elements") {
+TEST_CASE("the volume of a meshed cylinder converges to pi r^2 h, with order 2 for straight and 4 for curved elements",
+          "[long]") {
   const TemporaryFolder folder;
   const std::string path =
       folder.file("cylinder.geo", "SetFactory(\"OpenCASCADE\"); Cylinder(1) = {0,0,0, 0,0,0.2, 1};");
@@ -146,7 +146,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the connecting rod has OpenCASCADE's volume, as .geo and as .step") {
+TEST_CASE("the connecting rod has OpenCASCADE's volume, as .geo and as .step", "[long]") {
   const std::string folder = std::string(BIELLE_SOURCE_DIR) + "/meshes/";
   const double volume = geometry_volume(folder + "conrod.geo", "mm");
   // OpenCASCADE integrates trimmed surfaces numerically: both differ from the limit of fine meshes by some 1e-5.
