@@ -49,12 +49,9 @@ class Install(unittest.TestCase):
         try:
             with open(module, "w", encoding="utf-8") as file:
                 file.write("no library")
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertIn("volume 1: 6 m^3", run(*command), "the one of the build is taken")
         finally:
             os.rename(module + ".sound", module)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn(f"the module that reads and meshes bodies by gmsh cannot be loaded: {module}: ", done.stderr)
-        self.assertIn("install Bielle again", done.stderr)
 
     def test_tools_run_from_the_folder_of_programs(self):
         for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-loads", "bielle-exchange", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-study":

@@ -175,18 +175,12 @@ class Distributed(CommandTest):
     def test_a_part_that_hangs_by_an_edge(self):
         mesh = symmetric_bar(8, 1)
         lines = mesh.split("\n")
-        # One more tetrahedron, which shares the first edge of the last cell alone.
+        # One more tetrahedron outside, which shares one edge of the bar's rim.
         count = lines.index("$Nodes") + 1
         total = int(lines[count])
-        elements = lines.index("$Elements") + 1
-        last = max((line for line in lines[elements + 1:] if line.split()[1:2] == ["4"]), key=lambda line: int(line.split()[0]))
-        a, b = last.split()[5:7]
         where = {line.split()[0]: numpy.array(line.split()[1:], float) for line in lines[count + 1:count + 1 + total]}
-        middle = (where[a] + where[b]) / 2
-        out = middle + [0, 0.05, 0.05]
-        edge = where[b] - where[a]
-        side = numpy.cross(edge, out - middle)
-        tips = [out + 0.1 * side / numpy.linalg.norm(side), out - 0.1 * side / numpy.linalg.norm(side)]
+        a, b = (next(name for name, point in where.items() if numpy.allclose(point, [x, 0.01, 0.01])) for x in (0.03, 0.04))
+        tips = numpy.array([[0.035, 0.05, 0.03], [0.035, 0.03, 0.05]])
         for k, tip in enumerate(tips):
             lines.insert(count + 1 + total + k, f"{total + 1 + k} {tip[0]} {tip[1]} {tip[2]}")
         lines[count] = str(total + 2)
