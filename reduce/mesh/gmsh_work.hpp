@@ -33,8 +33,8 @@ struct GmshWork {
   std::string (*surface_of_source)(const SourceFile& source);
 };
 
-/// Loads the module, once per process: the first that can be loaded of those beside the program (in the lib folder of
-/// its prefix), of the build, of the installation or its package, and in LD_LIBRARY_PATH.
+/// Loads the module, once per process: the first that can be loaded of those in the prefix of the program (its lib
+/// folder), of the build, of the installation or its package, and in LD_LIBRARY_PATH.
 /// @throws ComputationError when there is none, or one of another build; std::bad_alloc
 const GmshWork& gmsh_work();
 

@@ -92,7 +92,7 @@ TEST_CASE("what slides, stops and sticks follows the law's differential equation
 }
 
 TEST_CASE("what sticks to a part that turns stays where it is on that part") {
-  // A drum of 0.5 m turns at 20 rad/s without gravity. A ball lies on its inner wall, 0.1 m beside the foot of the
+  // A drum of 0.5 m turns at 20 rad/s without gravity. A ball lies on its inner wall, 0.1 m away from the foot of the
   // perpendicular, so that a fifth of the centrifugal force acts along the wall.
   for (const bool wall_first : {true, false}) {
     CAPTURE(wall_first);
