@@ -149,7 +149,8 @@ joints:
     }
     state.memory[begin] = 16;
     for (int k = 0; k < 16; ++k) {
-      state.memory.segment<2>(begin + 1 + 8 * k) << 0, (k / 8) * 32 + k % 8;
+      const int corner = k / 8 * 32 + k % 8;
+      state.memory.segment<2>(begin + 1 + 8 * k) << 0, corner;
       state.memory.segment<3>(begin + 1 + 8 * k + 2) = random.vector3(2);
     }
     const VectorX r = dense.residual(state), v = dense.rates(state);
