@@ -67,16 +67,6 @@ void improve_well(const LinearisedEquations& equations, double rate, std::unique
   }
 }
 
-/// Takes the copy of a motion whose exponent is larger by a multiple of i rate.
-void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) {
-  s += Complex(0, multiple * rate);
-  for (Eigen::MatrixXcd* each : {&u, &w}) {
-    const Eigen::MatrixXcd copy = copied(*each, multiple);
-    *each = s.imag() < 0 ? Eigen::MatrixXcd(copy.rowwise().reverse().conjugate()) : copy;
-  }
-  if (s.imag() < 0) s = std::conj(s);
-}
-
 }  // namespace
 
 Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
@@ -91,6 +81,15 @@ Eigen::MatrixXcd copied(const Eigen::MatrixXcd& amplitudes, int multiple) {
   for (Eigen::Index k = 0; k < count; ++k)
     if (k + multiple >= 0 && k + multiple < count) copy.col(k) = amplitudes.col(k + multiple);
   return copy;
+}
+
+void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) {
+  s += Complex(0, multiple * rate);
+  for (Eigen::MatrixXcd* each : {&u, &w}) {
+    const Eigen::MatrixXcd copy = copied(*each, multiple);
+    *each = s.imag() < 0 ? Eigen::MatrixXcd(copy.rowwise().reverse().conjugate()) : copy;
+  }
+  if (s.imag() < 0) s = std::conj(s);
 }
 
 Modes HarmonicModes::found() const {

@@ -47,6 +47,10 @@ Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h);
 /// k + multiple at k, without those beyond the last one.
 Eigen::MatrixXcd copied(const Eigen::MatrixXcd& amplitudes, int multiple);
 
+/// Takes the copy of a motion whose exponent is larger by a multiple of i rate, or its conjugate, with Im s >= 0.
+/// @param u,w  amplitudes
+void take_copy(int multiple, double rate, std::complex<double>& s, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w);
+
 /// Whether a motion is one of the modes, or a copy of one. @param u  as many harmonics as they have @param s  exponent
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
               std::complex<double> s);

@@ -176,6 +176,22 @@ Eigen::VectorXcd PeriodicEquations::coefficients(const Eigen::MatrixXcd& amplitu
   return y;
 }
 
+LinearisedEquations PeriodicEquations::at(double psi) const {
+  LinearisedEquations e = first_;
+  const auto set_at = [psi](const HarmonicMatrix& A, Sparse& to) {
+    to = A[0];
+    for (std::size_t p = 1; p < A.size(); ++p)
+      if (A[p].nonZeros() > 0) to += harmonic_function(static_cast<int>(p), psi) * A[p];
+  };
+  set_at(M_, e.M);
+  set_at(C_, e.C);
+  set_at(K_, e.K);
+  set_at(B_, e.B);
+  set_at(S_, e.S);
+  set_at(F_, e.F);
+  return e;
+}
+
 LinearisedEquations PeriodicEquations::of_harmonics(int h) const {
   const int functions = 2 * h + 1, n = first_.unknowns(), m = first_.constraints();
   const auto unknown = [&](int p, int i) { return index(p, i, h); };

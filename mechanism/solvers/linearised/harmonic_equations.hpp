@@ -34,6 +34,8 @@ class PeriodicEquations {
   /// Whether the coefficients do not depend on the azimuth.
   bool constant() const { return constant_; }
   const LinearisedEquations& first() const { return first_; }  ///< the equations at azimuth 0
+  /// Returns the equations at an azimuth [rad]. Matrices have the same pattern at all azimuths.
+  LinearisedEquations at(double psi) const;
   /// Returns the equations of the harmonics up to h; for h = 0 the mean equations.
   LinearisedEquations of_harmonics(int h) const;
   /// Value of e_p at an azimuth [rad].

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/solvers/linearised/finite_states.hpp"
+#include "mechanism/solvers/linearised/floquet_motions.hpp"
 #include "mechanism/solvers/linearised/modes_around_mean.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
 #include "mechanism/solvers/linearised/resonant_motions.hpp"
@@ -275,7 +276,19 @@ HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOpt
   return in_place;
 }
 
-/// The search finds all copies, whose number grows with the harmonics: large equations are searched with one harmonic.
+/// @param known  modes with few harmonics @returns the motions that the monodromy matrix shows, with their harmonics
+std::optional<HarmonicModes> HarmonicSearch::motions_over_turn(const ModeOptions& options,
+                                                               const HarmonicModes& known) const {
+  std::optional<HarmonicModes> modes = find_by_monodromy(equations_, shapes_, known, options);
+  if (modes) modes = continue_modes(equations_, shapes_, *modes, modes->harmonics, Copies::largest);
+  if (!modes) return std::nullopt;
+  judge_modes(*modes, options);
+  modes->all = is_complete(*modes);
+  return modes;
+}
+
+/// The search with a number of harmonics finds all copies, and misses motions with more harmonics: it serves rotors for
+/// which one harmonic is exact, and those whose motions the monodromy matrix does not show.
 HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least) const {
   constexpr int most = 64, most_searched = 16;
   const auto counts_shift_twice = [&](const HarmonicModes& modes) {
@@ -284,10 +297,14 @@ HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least)
   constexpr int small = 1000;  // unknowns of the harmonics
   const bool at_once = (2 * least + 1) * equations_.first().unknowns() <= small;
   HarmonicModes modes = find_with(options, at_once ? std::max(1, least) : 1);
-  for (bool continued = false;;) {
+  modes.periodicity = Periodicity::multiblade;
+  if (modes.harmonics == 1 && are_exact(equations_, modes, exact)) return modes;
+  std::optional<HarmonicModes> over_turn = motions_over_turn(options, modes);
+  bool continued = over_turn.has_value();
+  if (over_turn) modes = *std::move(over_turn);
+  while (true) {
     const int h = modes.harmonics, more = std::max(least, next_harmonics(h));
-    modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
-    if (h == 1 && are_exact(equations_, modes, exact)) return modes;
+    modes.periodicity = Periodicity::periodic;
     std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, Copies::largest);
     if (next && next->change < exact) {
       // A rigid mode may be the shift in time, which it resembles with more harmonics only: rigid modes are not

@@ -37,6 +37,7 @@ class HarmonicSearch {
 
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
+  std::optional<HarmonicModes> motions_over_turn(const ModeOptions& options, const HarmonicModes& known) const;
   HarmonicModes find_freely(const ModeOptions& options, int least) const;
   HarmonicModes find_resonant(const ModeOptions& options, int least) const;
   HarmonicModes find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const;

@@ -66,14 +66,14 @@ void ShiftedOperator::build(ShiftedOperator* other) {
       std::vector<int>(whole.innerIndexPtr(), whole.innerIndexPtr() + whole.nonZeros()));
 
   set_scale(D);
-  VectorX diagonal(size);
-  diagonal.head(n) = scale_.head(n);
+  scale_of_solutions_.resize(size);
+  scale_of_solutions_.head(n) = scale_.head(n);
   for (int k = 0; k < m; ++k) {
     double most = 0;
     const Eigen::SparseVector<double> row = e.B.row(k);
     for (Eigen::SparseVector<double>::InnerIterator it(row); it; ++it)
       most = std::max(most, std::abs(it.value()) * scale_[it.index()]);
-    diagonal[n + k] = most > 0 ? 1 / most : 1;
+    scale_of_solutions_[n + k] = most > 0 ? 1 / most : 1;
   }
   const bool follows = other != nullptr && other->regular_ && other->is_real() == is_real() &&
                        other->pattern_->column_start() == pattern_->column_start() &&
@@ -84,7 +84,8 @@ void ShiftedOperator::build(ShiftedOperator* other) {
       factors = std::move(*others);
     else
       factors = std::make_unique<std::decay_t<decltype(*factors)>>(*pattern_);
-    regular_ = factors->factor(values, diagonal) == FactorStatus::good && factors->reciprocal_condition() > 0;
+    regular_ =
+        factors->factor(values, scale_of_solutions_) == FactorStatus::good && factors->reciprocal_condition() > 0;
     singular_ = factors->singular_column();
   };
   const std::vector<Complex> values(whole.valuePtr(), whole.valuePtr() + whole.nonZeros());

@@ -52,6 +52,8 @@ class ShiftedOperator {
 
   /// Returns the factors by which scaled values become physical ones.
   const VectorX& scale() const { return scale_; }  ///< (states)
+  /// Returns such factors of the unknowns u and of the multipliers. (unknowns + constraints)
+  const VectorX& scale_of_solutions() const { return scale_of_solutions_; }
 
  private:
   using SparseC = Eigen::SparseMatrix<Complex>;
@@ -67,7 +69,7 @@ class ShiftedOperator {
   Complex shift_;
   Side side_;
   bool regular_ = false;
-  VectorX scale_;
+  VectorX scale_, scale_of_solutions_;
   SparseC rates_;                           ///< sigma M + C
   Eigen::SparseMatrix<double> real_rates_;  ///< sigma M + C, for a real shift
   bool any_nonholonomic_ = false;
