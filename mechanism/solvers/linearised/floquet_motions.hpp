@@ -14,6 +14,30 @@
 
 namespace bielle::mechanism {
 
+/// A motion with one of its exponents.
+struct FloquetMotion {
+  std::complex<double> s;  ///< |Im s| <= rate/2, >= 0
+  Eigen::MatrixXcd u, w;   ///< amplitudes of the unknowns and of the dofs' rates at harmonics -h .. h (columns)
+};
+
+/// Finds the motions, one of each conjugate pair, without those that vanish in a turn and those that are too fast.
+/// @param fastest  rate up to which motions are resolved [rad/s]
+/// @param angle  of such a motion in a step [rad]: its exponent has a relative error of 1.4e-4 angle^5
+/// @throws ComputationError if the equations of a step are singular, or a turn has too many steps
+std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                           double fastest, double angle);
+
+constexpr double coarse_angle = 0.4;  ///< sufficient as a start for continue_modes
+
+/// Whether a motion decays so much in a turn that the monodromy matrix does not show it.
+bool vanishes_in_turn(std::complex<double> s, double rate);
+
+/// Returns the number of harmonics within which nearly everything of a motion lies.
+int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, std::complex<double> s);
+
+/// Returns the amplitudes of the harmonics -h .. h, zeros for those that are not given.
+Eigen::MatrixXcd within(const Eigen::MatrixXcd& amplitudes, int h);
+
 /// Finds the slowest motions besides the rigid ones, with as many harmonics as they need.
 /// @param known  modes with few harmonics, whose rigid modes are taken over
 /// @returns nothing if some of these motions may be missing: they decay so fast that nothing is left of them after a

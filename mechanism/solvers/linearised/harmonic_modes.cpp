@@ -250,11 +250,38 @@ int HarmonicSearch::most_affordable() const {
   return std::clamp((unknowns / equations_.first().unknowns() - 1) / 2, least, most);
 }
 
+/// Finds the motions about the periodic motion among those that the monodromy matrix shows. If the equations of the
+/// harmonics are too large, exponents are those of the time integration with smaller steps.
+std::optional<HarmonicModes> HarmonicSearch::motions_over_turn_from(const HarmonicModes& mean, int most) const {
+  std::optional<HarmonicModes> found = find_modes_over_turn(equations_, shapes_, mean, coarse_angle);
+  if (!found) return std::nullopt;
+  if (next_harmonics(found->harmonics) <= most)
+    if (auto next = continue_modes(equations_, shapes_, *found, found->harmonics, Copies::continued))
+      if (auto modes = converged(*std::move(next), most)) return modes;
+  constexpr int most_harmonics = 64;
+  constexpr double finer = 3, gain = 243;  // the order is five
+  std::optional<HarmonicModes> fine = find_modes_over_turn(equations_, shapes_, mean, coarse_angle / finer);
+  if (!fine || fine->harmonics > most_harmonics) return std::nullopt;
+  fine->equations = equations_.of_harmonics(fine->harmonics);
+  fine->periodicity = Periodicity::periodic;
+  for (std::size_t k = 0; k < fine->modes.size(); ++k) {
+    auto& [mode, u, w, whirl] = fine->modes[k];
+    mode.u = equations_.coefficients(u);
+    mode.w = equations_.coefficients(w);
+    const double size = std::max(std::abs(mode.s), std::abs(equations_.rate()));
+    fine->change = std::max(fine->change, std::abs(mode.s - found->modes[k].mode.s) / size / (gain - 1));
+  }
+  if (!(fine->change < exact)) return std::nullopt;
+  return fine;
+}
+
 HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const {
   const int most = most_affordable(), most_searched = 2 * most / 3;
-  std::optional<HarmonicModes> modes =
-      continue_modes(equations_, shapes_, mean, std::max({1, least, mean.harmonics}), Copies::continued);
+  std::optional<HarmonicModes> modes;
+  if (mean.harmonics < most / 2)
+    modes = continue_modes(equations_, shapes_, mean, std::max({1, least, mean.harmonics}), Copies::continued);
   if (modes) modes = converged(*std::move(modes), most);
+  if (!modes) modes = motions_over_turn_from(mean, most);
   constexpr int few = 6;
   const int first = std::max(few, mean.harmonics);
   for (int h = first, before = 0; !modes && h > before; before = h, h = std::min(2 * h, most_searched)) {

@@ -40,6 +40,7 @@ class HarmonicSearch {
   std::optional<HarmonicModes> motions_over_turn(const ModeOptions& options, const HarmonicModes& known) const;
   HarmonicModes find_freely(const ModeOptions& options, int least) const;
   HarmonicModes find_resonant(const ModeOptions& options, int least) const;
+  std::optional<HarmonicModes> motions_over_turn_from(const HarmonicModes& mean, int most) const;
   HarmonicModes find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const;
   std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
   std::optional<HarmonicModes> converged(HarmonicModes modes, int most) const;

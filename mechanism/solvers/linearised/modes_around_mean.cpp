@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mechanism/solvers/linearised/eigenpairs_around.hpp"
+#include "mechanism/solvers/linearised/floquet_motions.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -18,20 +19,31 @@ class SearchAround {
                int harmonics)
       : periodic_(equations), shapes_(shapes), mean_(mean), of_mean_(mean.modes.size(), -1) {
     found_.harmonics = harmonics;
-    found_.equations = equations.of_harmonics(harmonics);
     found_.states = mean.states;
     found_.all = mean.all;
-    for (const HarmonicMode& each : mean.modes) mean_shapes_.push_back(widened(each.u, harmonics));
+    for (const HarmonicMode& each : mean.modes) mean_shapes_.push_back(within(each.u, harmonics));
   }
 
-  std::optional<HarmonicModes> run() {
+  std::optional<HarmonicModes> by_harmonics() {
+    found_.equations = periodic_.of_harmonics(found_.harmonics);
     EigenpairsAround around(found_.equations, 0);
     for (std::size_t k = 0; k < mean_.modes.size(); ++k)
       if (of_mean_[k] < 0 && !look_around(k, around)) return std::nullopt;
-    std::vector<HarmonicMode> sorted;
-    for (const int at : of_mean_) sorted.push_back(std::move(found_.modes[static_cast<std::size_t>(at)]));
-    found_.modes = std::move(sorted);
-    return std::move(found_);
+    return sorted();
+  }
+
+  /// @param motions  all, with as many harmonics as the search
+  std::optional<HarmonicModes> among(const std::vector<FloquetMotion>& motions) {
+    std::vector<HarmonicMode> copies;
+    for (const FloquetMotion& each : motions) {
+      add_copies(each, copies);
+      if (each.s.imag() != 0)
+        add_copies({std::conj(each.s), each.u.rowwise().reverse().conjugate(), each.w.rowwise().reverse().conjugate()},
+                   copies);
+    }
+    take(copies, [](std::size_t) { return least; });
+    if (std::any_of(of_mean_.begin(), of_mean_.end(), [](int at) { return at < 0; })) return std::nullopt;
+    return sorted();
   }
 
  private:
@@ -41,7 +53,35 @@ class SearchAround {
     double share;
   };
 
-  static constexpr double most = 0.5;  ///< a motion with a larger share of a shape is the only one
+  static constexpr double most = 0.5;   ///< a motion with a larger share of a shape is the only one
+  static constexpr double least = 0.1;  ///< share of a shape that a motion needs to represent it
+
+  HarmonicModes sorted() {
+    std::vector<HarmonicMode> modes;
+    for (const int at : of_mean_) modes.push_back(std::move(found_.modes[static_cast<std::size_t>(at)]));
+    found_.modes = std::move(modes);
+    return std::move(found_);
+  }
+
+  /// Adds the copies of a motion that may represent modes of the mean.
+  void add_copies(const FloquetMotion& motion, std::vector<HarmonicMode>& copies) const {
+    std::vector<int> multiples;
+    for (const Eigen::MatrixXcd& of_mean : mean_shapes_) {
+      const VectorX parts = shapes_.similarities(motion.u, of_mean);
+      if (!(parts.sum() > least)) continue;
+      const Eigen::Index h = parts.size() / 2;
+      const auto multiple = static_cast<int>(std::lround(moment(parts) / parts.sum()));
+      const Complex s = motion.s + Complex(0, multiple * periodic_.rate());
+      if (std::abs(multiple) > h || s.imag() < 0 || std::count(multiples.begin(), multiples.end(), multiple) > 0)
+        continue;
+      multiples.push_back(multiple);
+      Mode mode;
+      mode.s = s;
+      Eigen::MatrixXcd u = copied(motion.u, multiple), w = copied(motion.w, multiple);
+      const double whirl = shapes_.whirl(shapes_.sizes(u, s));
+      copies.push_back({std::move(mode), std::move(u), std::move(w), whirl});
+    }
+  }
 
   bool look_around(std::size_t k, EigenpairsAround& around) {
     const Complex s = mean_.modes[k].mode.s;
@@ -49,7 +89,8 @@ class SearchAround {
     try {
       around.set_shift(s + std::max(std::abs(s), std::abs(periodic_.rate())) * Complex(6e-6, 8e-6));
       for (const Eigen::Index count : {few, several}) {
-        take(k, around.look(count, EigenpairsAround::Look::without_copies));
+        const EigenpairsNearby nearby = around.look(count, EigenpairsAround::Look::without_copies);
+        take(motions_of(nearby), [k](std::size_t j) { return j == k ? least : most; });
         if (of_mean_[k] >= 0) return true;
       }
     } catch (const ComputationError&) {
@@ -58,25 +99,31 @@ class SearchAround {
     return false;
   }
 
-  /// Takes the motion that represents the mode k of the mean, and the motions that certainly represent other modes.
-  void take(std::size_t k, const EigenpairsNearby& nearby) {
+  std::vector<HarmonicMode> motions_of(const EigenpairsNearby& nearby) const {
     std::vector<HarmonicMode> motions;
-    std::vector<Candidate> candidates;
     for (const Eigenpair& pair : nearby.pairs) {
       if (pair.s.imag() < 0) continue;
       const int n = found_.equations.unknowns(), dofs = found_.equations.dofs;
       Mode mode{pair.s, ModeKind::oscillating, pair.x.head(n), pair.x.tail(dofs), 0, pair.residual};
       Eigen::MatrixXcd u = periodic_.amplitudes(mode.u, found_.harmonics),
                        w = periodic_.amplitudes(mode.w, found_.harmonics);
-      for (std::size_t j = 0; j < mean_.modes.size(); ++j) {
-        constexpr double least = 0.1;
-        if (of_mean_[j] >= 0 || !may_be(pair.s, mean_.modes[j].mode.s)) continue;
-        const double share = share_of(u, mean_shapes_[j]);
-        if (share > (j == k ? least : most)) candidates.push_back({j, motions.size(), share});
-      }
       const double whirl = shapes_.whirl(shapes_.sizes(u, mode.s));
       motions.push_back({std::move(mode), std::move(u), std::move(w), whirl});
     }
+    return motions;
+  }
+
+  /// Takes the motions that represent modes of the mean, those with the largest shares first.
+  /// @param necessary  share of a motion that may represent the mode j of the mean
+  template <class Necessary>
+  void take(const std::vector<HarmonicMode>& motions, const Necessary& necessary) {
+    std::vector<Candidate> candidates;
+    for (std::size_t at = 0; at < motions.size(); ++at)
+      for (std::size_t j = 0; j < mean_.modes.size(); ++j) {
+        if (of_mean_[j] >= 0 || !may_be(motions[at].mode.s, mean_.modes[j].mode.s)) continue;
+        const double share = share_of(motions[at].u, mean_shapes_[j]);
+        if (share > necessary(j)) candidates.push_back({j, at, share});
+      }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
     for (const Candidate& each : candidates) {
@@ -99,10 +146,13 @@ class SearchAround {
   /// motion has the mean of these harmonics nearer to zero.
   double share_of(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& of_mean) const {
     const VectorX parts = shapes_.similarities(u, of_mean);
+    return std::abs(moment(parts)) <= 0.5 * parts.sum() ? parts.sum() : 0;
+  }
+
+  /// Returns the sum of k times the part of harmonic k.
+  static double moment(const VectorX& parts) {
     const Eigen::Index h = parts.size() / 2;
-    double moment = 0;
-    for (Eigen::Index k = -h; k <= h; ++k) moment += static_cast<double>(k) * parts[h + k];
-    return std::abs(moment) <= 0.5 * parts.sum() ? parts.sum() : 0;
+    return VectorX::LinSpaced(parts.size(), -static_cast<double>(h), static_cast<double>(h)).dot(parts);
   }
 
   const PeriodicEquations& periodic_;
@@ -117,7 +167,34 @@ class SearchAround {
 
 std::optional<HarmonicModes> find_modes_around(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                                const HarmonicModes& mean, int harmonics) {
-  return SearchAround(equations, shapes, mean, harmonics).run();
+  return SearchAround(equations, shapes, mean, harmonics).by_harmonics();
+}
+
+std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                                  const HarmonicModes& mean, double angle) {
+  constexpr double further = 1.1;
+  double fastest = std::abs(equations.rate());
+  for (const HarmonicMode& each : mean.modes) {
+    if (vanishes_in_turn(each.mode.s, equations.rate())) return std::nullopt;
+    fastest = std::max(fastest, further * std::abs(each.mode.s));
+  }
+  try {
+    const std::vector<FloquetMotion> motions = floquet_motions(equations, shapes, fastest, angle);
+    if (motions.empty()) return std::nullopt;
+    const auto all = static_cast<int>(motions.front().u.cols() / 2);
+    std::optional<HarmonicModes> found = SearchAround(equations, shapes, mean, all).among(motions);
+    if (!found) return std::nullopt;
+    found->harmonics = 1;
+    for (const HarmonicMode& each : found->modes)
+      found->harmonics = std::max(found->harmonics, harmonics_of(shapes, each.u, each.mode.s));
+    for (HarmonicMode& each : found->modes) {
+      each.u = within(each.u, found->harmonics);
+      each.w = within(each.w, found->harmonics);
+    }
+    return found;
+  } catch (const ComputationError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace bielle::mechanism

@@ -15,4 +15,10 @@ namespace bielle::mechanism {
 std::optional<HarmonicModes> find_modes_around(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                                const HarmonicModes& mean, int harmonics);
 
+/// Finds the same among the motions that the monodromy matrix shows (floquet_motions.hpp), with as many harmonics as
+/// they need, and without the equations of these.
+/// @param angle  as for floquet_motions @returns nothing also if a mode of the mean equations vanishes in a turn
+std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                                  const HarmonicModes& mean, double angle);
+
 }  // namespace bielle::mechanism
