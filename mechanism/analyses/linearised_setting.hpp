@@ -26,7 +26,7 @@ struct LinearisedSetting {
     double rate = 0;    ///< [rad/s]
     Periodicity periodicity = Periodicity::constant;
     int harmonics = 0;
-    double change = 0;  ///< relative change of the exponents by one more harmonic
+    double change = 0;  ///< relative change of the exponents by further harmonics, or smaller steps
     bool mean = false;  ///< whether motions are about the mean state, without alternating forces
     /// Vibration by gravity across the axis and unbalance: largest displacement [m] and its node, largest rotation
     /// [rad], harmonics of the rotation; 0 without one.

@@ -241,9 +241,9 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
              "frequencies are those seen from what stands still\n";
     default:
       return text + fmt::format(
-                        "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
-                        "further ones change them by {:.1g}; frequencies that differ by multiples of the rate "
-                        "belong to the same motion\n",
+                        "  the equations are periodic in any axes: Floquet exponents with {} harmonics of the rotation, "
+                        "accurate to about {:.1g}; frequencies that differ by multiples of the rate belong to the "
+                        "same motion\n",
                         turning.harmonics, turning.change);
   }
 }

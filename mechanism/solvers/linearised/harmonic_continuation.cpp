@@ -193,7 +193,9 @@ bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, d
 
 void judge_modes(HarmonicModes& modes, const ModeOptions& options) {
   const EquationRounding rounding(modes.equations);
-  const ModeJudgement judgement(modes.equations, rounding, options);
+  ModeOptions accuracy = options;
+  accuracy.drift = std::max(options.drift, modes.change);
+  const ModeJudgement judgement(modes.equations, rounding, accuracy);
   for (HarmonicMode& each : modes.modes)
     if (each.mode.kind != ModeKind::rigid) judgement.judge(each.mode);
 }

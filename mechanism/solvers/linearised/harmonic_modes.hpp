@@ -1,11 +1,12 @@
 // Modes of equations with periodic coefficients: Floquet exponents and shapes (harmonic_equations.hpp).
 //
-// All modes are searched for once, with few harmonics. Each is then continued with more harmonics by inverse iteration
-// until these change its exponent no more. The slower the rotation, the more harmonics are necessary: about as many as
-// the rate is contained in the change of a frequency over a turn.
+// Modes for which one harmonic is exact are searched for with it. Others are found by the monodromy matrix
+// (floquet_motions.hpp), or by searches with more harmonics if it does not show them, and continued with more harmonics
+// by inverse iteration until these change no exponent. The slower the rotation, the more harmonics are necessary: about
+// as many as the rate is contained in the change of a frequency over a turn.
 //
 // About a periodic motion of equal blades the modes are continued from those about its mean state, which one harmonic
-// of the rotation contains, or searched for around these (modes_around_mean.hpp). The exponent that represents a motion
+// of the rotation contains, or chosen among all motions by their shapes (modes_around_mean.hpp). The exponent that represents a motion
 // is then the one into which that of the mean state goes over. At a rate so slow that the limit of harmonics does not
 // contain the modulation of a frequency over a turn, a motion has no line of its own but a band, whose middle is the
 // frequency about the mean state: the modes are those of the mean equations there.

@@ -16,14 +16,14 @@ Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a
 
 }  // namespace
 
-/// Returns the left vector. For general equations it is computed only for modes that may grow, since it costs a
-/// factorisation.
+/// Returns the left vector. For general equations it is computed only for modes that grow by more than the drift allows,
+/// since it costs a factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
   if (symmetry_ == EquationSymmetry::symmetric) return mode.u;
   if (symmetry_ == EquationSymmetry::gyroscopic && std::abs(mode.s.real()) <= nearly * std::abs(mode.s))
     return mode.u.conjugate();
-  if (mode.s.real() <= 0) return {};
+  if (mode.s.real() <= drift_uncertainty(mode.s)) return {};
   return left_vector(e_, mode.s, mode.u);
 }
 
