@@ -1,8 +1,9 @@
-"""Runs the Python tools as shell commands, each in a copy of one process that has imported their modules. Pages of the
-manual start the tools by name, and bielle-reduce starts convert_mesh.py for each deck, a hundred times in some tests.
-The imports of numpy, h5py, meshio, matplotlib and VTK take nine tenths of the time of such a start. The commands in the
-folder of `quick_tools` pass their arguments, folder, environment and streams to a server of the test, whose copy runs
-the script of the tool (python_tool.py), and end with its exit status.
+"""Runs the Python tools as shell commands, each in a copy of one process that has imported their modules.
+
+Pages of the manual start the tools by name, and bielle-reduce starts convert_mesh.py for each deck, a hundred times in
+some tests. The imports of numpy, h5py, meshio, matplotlib and VTK take nine tenths of the time of such a start. The
+commands in the folder of `quick_tools` pass their arguments, folder, environment and streams to a server of the test,
+whose copy runs the script of the tool (python_tool.py), and end with its exit status.
 """
 
 import contextlib
@@ -35,7 +36,9 @@ sys.exit(int(status))
 @contextlib.contextmanager
 def quick_tools(*packages):
     """Yields a folder like tools/, whose Python commands are run by a server; the other commands and the package are
-    links. `packages` are imported beforehand, as by `import_tools`
+    links.
+
+    `packages` are imported beforehand, as by `import_tools`
     """
     import_tools(*packages)
     with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listening:

@@ -11,8 +11,9 @@ BASE, PLATFORM, ARM, ROD, DROOP = 0.2, 0.05, 0.25, 0.6, math.radians(30)
 
 
 def motor_angle(place, azimuth):
-    """Returns the angle below the horizontal of the upper arm for a position of the platform. It solves |(X - ARM cos
-    q, y, z + ARM sin q)| = ROD in the plane of the arm, with X = x + PLATFORM - BASE.
+    """Returns the angle below the horizontal of the upper arm for a position of the platform.
+
+    It solves |(X - ARM cos q, y, z + ARM sin q)| = ROD in the plane of the arm, with X = x + PLATFORM - BASE.
     """
     x, y, z = place
     along, across = x * math.cos(azimuth) + y * math.sin(azimuth), y * math.cos(azimuth) - x * math.sin(azimuth)

@@ -1,5 +1,6 @@
-"""Compares stresses of mechanism/examples/mast.yaml under wind with elementary beam theory. The top moves by a few
-centimetres, so that the weight on the displaced mast changes the moments by less than 2 %.
+"""Compares stresses of mechanism/examples/mast.yaml under wind with elementary beam theory.
+
+The top moves by a few centimetres, so that the weight on the displaced mast changes the moments by less than 2 %.
 """
 
 import unittest

@@ -1,4 +1,5 @@
 """Tests mechanism/examples/slider_crank.yaml: it moves by the kinematics of a slider-crank, and its energy is balanced.
+
 The rod deforms by less than 0.2 mm, and rigid kinematics hold within that.
 """
 

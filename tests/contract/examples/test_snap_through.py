@@ -1,5 +1,7 @@
-"""Tests that Lee's frame in mechanism/examples/snap_through.yaml passes both limit loads. The reference is Reissner's
-rod (shear factor 5/6) by shooting in long double with pseudo-arclength continuation, accurate to 1e-9.
+"""Tests that Lee's frame in mechanism/examples/snap_through.yaml passes both limit loads.
+
+The reference is Reissner's rod (shear factor 5/6) by shooting in long double with pseudo-arclength continuation,
+accurate to 1e-9.
 """
 
 import os

@@ -7,7 +7,7 @@ import numpy as np
 from example import ExampleTest
 
 PITCH = 2 * np.pi / 30
-PERIOD = 2 * np.pi / 3  # of the crank, whose speed rises during the first 0.2 s [s]
+PERIOD = 2 * np.pi / 3  # time of a turn of the crank, whose speed rises during the first 0.2 s [s]
 G, LOAD, RADIUS = 9.81, 100, 0.15
 
 

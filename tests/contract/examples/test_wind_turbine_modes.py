@@ -27,8 +27,9 @@ def blade():
 
 def tower_sideways():
     """Returns the frequency [Hz] of the tower across the shaft at rest by Rayleigh's quotient, with the deflection by a
-    force at the top. The shaft turns freely, so that the rotor does not resist a rotation of the tower's top about the
-    shaft.
+    force at the top.
+
+    The shaft turns freely, so that the rotor does not resist a rotation of the tower's top about the shaft.
     """
     inertia, area = math.pi / 4 * (OUTER ** 4 - INNER ** 4), math.pi * (OUTER ** 2 - INNER ** 2)
     z = (np.arange(4000) + 0.5) / 4000

@@ -1,5 +1,7 @@
-"""Writes IGES files of boxes along the axes. Each box is a manifold solid (entity 186) between plane surfaces (Initial
-Graphics Exchange Specification 5.3, ANS US PRO/IPO-100-1996).
+"""Writes IGES files of boxes along the axes.
+
+Each box is a manifold solid (entity 186) between plane surfaces (Initial Graphics Exchange Specification 5.3, ANS US
+PRO/IPO-100-1996).
 """
 
 import itertools

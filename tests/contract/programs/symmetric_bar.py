@@ -6,9 +6,11 @@ import itertools
 
 def symmetric_bar(length_cells, half_cells, size=0.01):
     """Returns the text of a .msh file of first-order tetrahedra, 2 `half_cells` across, with surfaces `left` and
-    `right` at the ends. Each brick is split into the six tetrahedra of Kuhn, along a diagonal that points away from the
-    bar's axis. The mesh is symmetric about both middle planes and, since those tetrahedra do not distinguish axes,
-    about the diagonal planes.
+    `right` at the ends.
+
+    Each brick is split into the six tetrahedra of Kuhn, along a diagonal that points away from the bar's axis. The mesh
+    is symmetric about both middle planes and, since those tetrahedra do not distinguish axes, about the diagonal
+    planes.
     """
     across, points, cells, faces = 2 * half_cells, {}, [], []
 

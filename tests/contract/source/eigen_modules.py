@@ -1,6 +1,7 @@
-"""Finds modules of Eigen that a source uses but does not include, directly or through its own headers. Such a source
-compiles with precompiled headers, and without them as well: Eigen/Core declares the members, and only the linker
-reports missing definitions.
+"""Finds modules of Eigen that a source uses but does not include, directly or through its own headers.
+
+Such a source compiles with precompiled headers, and without them as well: Eigen/Core declares the members, and only the
+linker reports missing definitions.
 """
 
 import os

@@ -1,7 +1,8 @@
-"""The rule that says which folders a folder may include, which is the layout of the project. A folder includes only
-from itself and from the previous ones in its program's list. `mechanism` may include the common code, the superelement,
-dense algebra and eigenpairs from `reduce`; `reduce` includes nothing of `mechanism`. Moving parts (elements, joints)
-and solving parts (systems, solvers) share the model, and include nothing of each other.
+"""The rule that says which folders a folder may include, which is the layout of the project.
+
+A folder includes only from itself and from the previous ones in its program's list. `mechanism` may include the common
+code, the superelement, dense algebra and eigenpairs from `reduce`; `reduce` includes nothing of `mechanism`. Moving
+parts (elements, joints) and solving parts (systems, solvers) share the model, and include nothing of each other.
 """
 
 import os

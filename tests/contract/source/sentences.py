@@ -31,8 +31,9 @@ def openers(text):
 
 
 def joined(lines):
-    """Returns [line, text] of comments that are given as (line, column, text). Comments in successive lines of one
-    column are one text, which ends at tags and entries of lists.
+    """Returns [line, text] of comments that are given as (line, column, text).
+
+    Comments in successive lines of one column are one text, which ends at tags and entries of lists.
     """
     texts, last = [], None
     for number, column, text in lines:

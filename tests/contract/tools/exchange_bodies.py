@@ -1,6 +1,7 @@
-"""Free linear bodies for the formats of matrices. A body is a cloud of point masses whose displacements are linear in
-the unknowns. Its stiffness and mass are exact by construction: K u = 0 for rigid motions u; M and the components S_kl
-are sums over the points.
+"""Free linear bodies for the formats of matrices.
+
+A body is a cloud of point masses whose displacements are linear in the unknowns. Its stiffness and mass are exact by
+construction: K u = 0 for rigid motions u; M and the components S_kl are sums over the points.
 """
 
 import os

@@ -1,6 +1,7 @@
-"""A stand-in for bielle-mechanism in tests of tools/bielle-study, whose results are known in closed form. It does not
-import h5py, which would take nine tenths of its time. It copies results that are written once, and replaces numbers and
-the name of the program.
+"""A stand-in for bielle-mechanism in tests of tools/bielle-study, whose results are known in closed form.
+
+It does not import h5py, which would take nine tenths of its time. It copies results that are written once, and replaces
+numbers and the name of the program.
 """
 
 import io

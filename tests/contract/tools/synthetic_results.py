@@ -1,7 +1,9 @@
-"""A superelement and a results file with a motion known in closed form, in the layout of the two programs. A box
-rotates about z with OMEGA, the origin of its frame moves along x with SPEED, and it is stretched along its own x axis
-by the strain STRAIN sin(2 pi t / DURATION), with the von Mises stress YOUNG |strain|. A beam is at rest, and a hinge
-rotates. A solid ellipsoid of uniform density with the semi-axes SEMI_AXES is fixed to the node of the box, at CENTRE.
+"""A superelement and a results file with a motion known in closed form, in the layout of the two programs.
+
+A box rotates about z with OMEGA, the origin of its frame moves along x with SPEED, and it is stretched along its own x
+axis by the strain STRAIN sin(2 pi t / DURATION), with the von Mises stress YOUNG |strain|. A beam is at rest, and a
+hinge rotates. A solid ellipsoid of uniform density with the semi-axes SEMI_AXES is fixed to the node of the box, at
+CENTRE.
 """
 
 import h5py

@@ -22,7 +22,8 @@ std::string import_message(const reduce::MeshRequest& request);
 reduce::SurfaceSelection selection(const std::string& group, const reduce::SurfaceSelector& selector);
 
 /// Returns a mesh in gmsh's format 2.2 from points (rows "x y z") and elements (rows "type number-of-tags tags..
-/// nodes.."), which are numbered from 1. @param names  rows `dimension number "name"`
+/// nodes.."), which are numbered from 1.
+/// @param names  rows `dimension number "name"`
 std::string msh(const std::vector<std::string>& points, const std::vector<std::string>& elements,
                 const std::vector<std::string>& names = {});
 
