@@ -11,13 +11,11 @@
 // all in time of the processor. The rest is the scheme's: prediction, tests of convergence, records. Work that a run
 // does once, when its file is closed, is reported separately. step_shares measures the share of assembly in residuals
 // and tangents.
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -123,23 +121,6 @@ Runs fastest(const MechanismFile& file, const System& system, const std::string&
       Run run = integrate(file, system, policies[k], results_path);
       if (round == 0 || run.processor < best[k].processor) best[k] = std::move(run);
     }
-  return best;
-}
-
-/// Returns the processor time of one call [s]: the fastest of several rounds.
-double time_of(const std::function<void()>& call) {
-  call();
-  double best = 1e9;
-  for (int round = 0; round < 10; ++round) {
-    const double start = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
-    const auto spent = [&] { return processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start; };
-    int calls = 0;
-    do {
-      call();
-      ++calls;
-    } while (spent() < 0.02);
-    best = std::min(best, spent() / calls);
-  }
   return best;
 }
 

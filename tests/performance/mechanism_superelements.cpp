@@ -10,10 +10,10 @@
 //
 // Processor time of the calling thread, the fastest of several rounds, unless labelled elapsed, for work that other
 // threads shorten.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -109,23 +109,6 @@ void keep_fastest(const Run& run, Run& best) {
   best.processor = std::min(best.processor, run.processor);
   best.all = std::min(best.all, run.all);
   best.elapsed = std::min(best.elapsed, run.elapsed);
-}
-
-/// Returns the time of one call [s]: the fastest of several rounds.
-double time_of(const std::function<void()>& call, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-  call();
-  double best = 1e9;
-  for (int round = 0; round < 10; ++round) {
-    const double start = processor_seconds(clock);
-    const auto spent = [&] { return processor_seconds(clock) - start; };
-    int calls = 0;
-    do {
-      call();
-      ++calls;
-    } while (spent() < 0.02);
-    best = std::min(best, spent() / calls);
-  }
-  return best;
 }
 
 /// Steps by one thread and by all, in turns. @returns the last state

@@ -1,7 +1,6 @@
 """Compares motions of bodies from matrices of CalculiX, shells and tetrahedra, with Bielle's own reduction of the same
 mesh."""
 
-import itertools
 import os
 import shutil
 import subprocess
@@ -13,6 +12,7 @@ import numpy as np
 import scipy.linalg
 
 from test_reduce_matrices import Matrices
+from kuhn_cubes import kuhn_cubes
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
@@ -161,14 +161,7 @@ class Tetrahedra(Moved):
 
     def rod(self, cells=10):
         """Writes and runs the deck of cubes of six tetrahedra, in a row along x. Returns the nodes of both ends."""
-        numbers, elements = {}, []
-        for x in range(cells):
-            for path in itertools.permutations(np.eye(3, dtype=int)):
-                corners = np.cumsum([np.array([x, 0, 0]), *path], axis=0)
-                if np.linalg.det(corners[1:] - corners[0]) < 0:
-                    corners = corners[[0, 2, 1, 3]]
-                middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
-                elements.append([numbers.setdefault(tuple(map(float, place)), len(numbers) + 1) for place in (*corners, *middles)])
+        numbers, elements = kuhn_cubes(cells)
         nodes = "".join(f"{number}, {LENGTH * x / cells:.12g}, {SIDE * (y - 0.5):.12g}, {SIDE * (z - 0.5):.12g}\n"
                         for (x, y, z), number in numbers.items())
         cards = "".join(f"{k}, {', '.join(map(str, element))}\n" for k, element in enumerate(elements, 1))

@@ -1,6 +1,5 @@
 """Tests of matrices of CalculiX: written files, and files of runs of the program if it is installed."""
 
-import itertools
 import os
 import shutil
 import subprocess
@@ -10,6 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from exchange_bodies import Exchange, cloud_body, rigid_of
+from kuhn_cubes import kuhn_cubes
 
 MATERIAL = "*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.3\n*DENSITY\n4.\n"
 STORE = "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n"
@@ -38,14 +38,7 @@ PLATE = """*NODE
 
 def tetrahedra(cubes):
     """Returns a deck of cubes in a row, each of six tetrahedra with ten nodes around a diagonal."""
-    numbers, elements = {}, []
-    for x in range(cubes):
-        for path in itertools.permutations(np.eye(3, dtype=int)):
-            corners = np.cumsum([np.array([x, 0, 0]), *path], axis=0)
-            if np.linalg.det(corners[1:] - corners[0]) < 0:
-                corners = corners[[0, 2, 1, 3]]
-            middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
-            elements.append([numbers.setdefault(tuple(map(float, place)), len(numbers) + 1) for place in (*corners, *middles)])
+    numbers, elements = kuhn_cubes(cubes)
     nodes = "".join(f"{number}, {x}, {y}, {z}\n" for (x, y, z), number in numbers.items())
     cells = "".join(f"{k}, {', '.join(map(str, element))}\n" for k, element in enumerate(elements, 1))
     return f"*NODE\n{nodes}*ELEMENT, TYPE=C3D10, ELSET=E\n{cells}*SOLID SECTION, ELSET=E, MATERIAL=M\n{MATERIAL}"

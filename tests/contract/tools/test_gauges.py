@@ -5,8 +5,6 @@ import contextlib
 import csv
 import io
 import os
-import shutil
-import subprocess
 import unittest
 
 import h5py
@@ -14,6 +12,7 @@ import numpy as np
 
 from box_mesh import REPOSITORY, InFolder, box
 from python_tool import run_python_tool  # box_mesh sets the path
+from reduced_bar import ReducedBar
 
 from bielle_tools.bodies.gauges import ROSETTES, gauge_strains, principal_strains
 from bielle_tools.mesh.surface_point import nearest_on_surface
@@ -23,7 +22,6 @@ from bielle_tools.results import Results
 from bielle_tools.study.gather import read_gather
 from synthetic_results import VTK_TO_GMSH, put
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 SIZE = np.array([0.3, 0.2, 0.1])
 YOUNG, POISSON = 210e9, 0.3
 LENGTH, WIDTH = 1.0, 0.1
@@ -242,11 +240,9 @@ class OfBoxes(InFolder):
             self.assertIn(part, str(caught.exception))
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     def test_a_bar_drawn_bent_twisted_and_turned(self):
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), self.folder)
-        self.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=self.folder, check=True, capture_output=True, timeout=120)
+        self.reduce_bar(BODY)
         area, bending = WIDTH ** 2, YOUNG * WIDTH ** 4 / 12
         force, moment = 1e4, 1e3
         drawn, bent = f"force: [{force}, 0, 0]", f"moment: [0, {-moment}, 0]"
@@ -269,8 +265,7 @@ class OfABar(InFolder):
 
     def rosette(self, load, place, angle):
         """Returns the last row."""
-        self.write("model.yaml", MODEL.replace("LOAD", load).replace("ANGLE", str(angle)))
-        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        self.run_bar(MODEL.replace("LOAD", load).replace("ANGLE", str(angle)))
         with Results(self.path("run.h5")) as results:
             return Quantities(results).read(f"bar.rosette({place}, 1 0 0, rectangular)").values[-1]
 

@@ -1,14 +1,11 @@
 """Tests of equivalent radiated power and deflections of superelements: rigid motions, breathing and bending in closed
 form, and a bar."""
 
-import os
-import shutil
-import subprocess
-
 import h5py
 import numpy as np
 
-from box_mesh import REPOSITORY, InFolder, box
+from box_mesh import InFolder, box
+from reduced_bar import ReducedBar
 
 from bielle_tools.bodies import radiated_power
 from bielle_tools.messages import InputError  # box_mesh sets the path
@@ -16,7 +13,6 @@ from bielle_tools.quantities.quantities import Quantities
 from bielle_tools.results import Results
 from synthetic_results import VTK_TO_GMSH, put
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 SIZE = np.array([0.3, 0.2, 0.1])
 Z = 1.204 * 343.2  # [N s/m^3] air at 20 degrees
 BODY = """
@@ -163,17 +159,14 @@ class OfBoxes(InFolder):
             self.assertIn(part, str(caught.exception))
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     def test_a_bar_bends_off_its_chord_as_beam_theory_says(self):
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), self.folder)
-        self.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=self.folder, check=True, capture_output=True, timeout=120)
+        self.reduce_bar(BODY)
         bending = 210e9 * 0.1 ** 4 / 12
         # The deflection of a cantilever by shear is a straight line, which the chord removes: w(L/2) - w(L)/2 = -F
         # L^3/(16 EI), -M L^2/(8 EI).
         for load, expected in (("force: [0, 0, 1000]", -1000 / (16 * bending)), ("moment: [0, -1000, 0]", -1000 / (8 * bending))):
-            self.write("model.yaml", MODEL.replace("LOAD", load))
-            subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+            self.run_bar(MODEL.replace("LOAD", load))
             with Results(self.path("run.h5")) as results:
                 found = Quantities(results).read("bar.deflection(middle, root, tip)").values
             # One element over the thickness is 0.08 % too stiff.

@@ -3,14 +3,13 @@ weight, a spinning bar."""
 
 import contextlib
 import io
-import os
 import shutil
-import subprocess
 import unittest
 
 import numpy as np
 
-from box_mesh import REPOSITORY, InFolder, box
+from box_mesh import box
+from reduced_bar import ReducedBar
 
 from bielle_tools.mesh.cells import CELLS, SOLIDS
 from bielle_tools.mesh.half_space import moments_in_front
@@ -18,7 +17,6 @@ from bielle_tools.messages import InputError  # box_mesh sets the path
 from bielle_tools.quantities.quantities import Quantities
 from bielle_tools.results import Results
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 LENGTH, WIDTH, DENSITY = 1.0, 0.1, 7800.0
 BODY = """
 body: bar
@@ -88,14 +86,12 @@ class OfHalfSpaces(unittest.TestCase):
                     np.testing.assert_allclose(first + second, total, atol=1e-11 * abs(whole[0]), err_msg=kind)
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     @classmethod
     def setUpClass(cls):
-        cls.made = InFolder()
+        cls.made = ReducedBar()
         cls.made.setUp()
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), cls.made.folder)
-        cls.made.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=cls.made.folder, check=True, capture_output=True, timeout=120)
+        cls.made.reduce_bar(BODY)
 
     @classmethod
     def tearDownClass(cls):
@@ -103,8 +99,7 @@ class OfABar(InFolder):
 
     def run_model(self, rest, gravity="[0, 0, 0]"):
         shutil.copy(self.made.path("bar.h5"), self.folder)
-        self.write("model.yaml", MODEL.replace("GRAVITY", gravity) + rest)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        self.run_bar(MODEL.replace("GRAVITY", gravity) + rest)
 
     def sections(self, places=(0.02, 0.3, 0.525, 0.97)):
         """Returns [(x, section (6))] of the last row, with the normal along the bar."""
