@@ -1,4 +1,4 @@
-"""Results files that have to be equal to the last bit, and results of runs that ended early."""
+"""Compares results files that must be equal to the last bit, and writes results of runs that ended early."""
 
 import shutil
 
@@ -21,7 +21,8 @@ def valid_values(group):
 
 
 def expect_equal_values(found, expected, message=""):
-    """Both have the same names, with arrays that agree in shape, type and every bit of a number; nan equals nan."""
+    """Asserts that both have the same names, and arrays of the same shape and type that are equal to the last bit; nan
+    equals nan."""
     np.testing.assert_equal(sorted(found), sorted(expected), err_msg=message)
     for name, values in expected.items():
         one, two = np.asarray(found[name]), np.asarray(values)
@@ -30,7 +31,7 @@ def expect_equal_values(found, expected, message=""):
 
 
 def expect_equal_runs(path, expected_path, message=""):
-    """Both files hold complete runs, whose analyses recorded the same."""
+    """Asserts that both files contain complete runs with equal results."""
     with h5py.File(path) as file, h5py.File(expected_path) as other:
         np.testing.assert_equal([file.attrs["complete"], other.attrs["complete"]], [1, 1], err_msg=message)
         analyses = [name for name in other if name.startswith("analysis_")]

@@ -1,11 +1,11 @@
-"""Base class of most tests of commands and files: a folder for each test, which is removed with it."""
+"""Base class of most tests of commands and files. Each test has a folder, which is removed after it."""
 
 import os
 import tempfile
 import unittest
 
-# bielle-reduce restarts itself with settings of its libraries unless they are set: with them, each run starts in half the
-# time.
+# bielle-reduce restarts itself with settings of its libraries unless they are set; setting them halves the start of
+# each run.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")
 
@@ -13,7 +13,7 @@ REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..")
 
 
 class InFolder(unittest.TestCase):
-    """folder: for this test alone; `path` and `write` name files in it."""
+    """`folder` belongs to this test alone; `path` and `write` refer to files in it."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -1,7 +1,8 @@
 """Runs a Python tool of the repository as a command, in a copy of the test's process.
 
-A start of the interpreter with numpy, h5py and matplotlib takes a second. The copy has what the test has imported, and
-runs the script of the tool from its first line, with its own arguments, folder, environment, output and exit status.
+A start of the interpreter with numpy, h5py and matplotlib takes a second. The copy has the modules that the test has
+imported, and runs the script of the tool from its first line, with its own arguments, folder, environment, output and
+exit status.
 """
 
 import ast
@@ -28,26 +29,26 @@ LOADED_LATE = ("matplotlib.backends.backend_svg", "matplotlib.tri", "meshio", "s
 
 
 def import_tools(*packages):
-    """Imports packages of bielle_tools, so that the copies of this process have them; without names: all, in 1.3 s, with the
-    libraries that they load late."""
+    """Imports packages of bielle_tools, so that the copies of this process have them. Without names it imports all of
+    them in 1.3 s, with the libraries that they load late."""
     if TOOLS not in sys.path:
         sys.path.insert(0, TOOLS)
     for package in [f"bielle_tools.{name}" for name in packages] or ["bielle_tools"]:
         for module in pkgutil.walk_packages(importlib.import_module(package).__path__, package + "."):
             importlib.import_module(module.name)
     for name in () if packages else LOADED_LATE:
-        with contextlib.suppress(ImportError):  # a tool tells which of its libraries are absent
+        with contextlib.suppress(ImportError):  # a tool reports its missing libraries
             importlib.import_module(name)
-    gc.freeze()  # collections in the copies pass over what is imported here, and do not copy its pages
+    gc.freeze()  # garbage collection in the copies skips these objects, and does not copy their pages
 
 
 FOR_TESTS = {"figure.constrained_layout.use": False, "figure.dpi": 60, "savefig.dpi": 60, "axes.formatter.use_mathtext": False}
-users_style = {}  # the same settings as users have them, after `prepare_figures`
+users_style = {}  # the settings of users, which `prepare_figures` changes
 
 
 def prepare_figures():
-    """Lets the copies of this process draw figures in half their time: coarse, without the search of a layout and formulas
-    in the numbers of axes, with fonts that are found."""
+    """Lets the copies of this process draw figures in half the time: with low resolution, without an optimised layout
+    and formulas in axis labels, and with fonts found beforehand."""
     style = importlib.import_module("bielle_tools.figures.plot_style")
     for name, value in FOR_TESTS.items():
         users_style.setdefault(name, style.plt.rcParams[name])
@@ -65,7 +66,7 @@ _imported_for = set()
 
 
 def import_for(script):
-    """Imports, once, the modules that a script names at its head, so that the copies of this process have them."""
+    """Imports the modules that a script imports at its head once, so that the copies of this process have them."""
     if script in _imported_for:
         return
     _imported_for.add(script)
@@ -76,7 +77,8 @@ def import_for(script):
     for node in heads:
         names = [name.name for name in node.names]
         for name in names if isinstance(node, ast.Import) else [node.module, *(f"{node.module}.{each}" for each in names)]:
-            with contextlib.suppress(ImportError):  # a function; or the script itself tells that the module is missing
+            # A name may be a function. The script itself reports a missing module.
+            with contextlib.suppress(ImportError):
                 importlib.import_module(name)
     gc.freeze()
 
@@ -109,14 +111,15 @@ def _wait(child, command, timeout):
 
 
 def _without_another_copy():
-    """A tool that survives a crash of the HDF5 library works in a copy of its process. This process is a copy already, and
-    one copy takes two fifths of the time of a call; the crash itself is tested with an interpreter of its own."""
+    """A tool that survives a crash of the HDF5 library works in a copy of its process. This process is a copy already,
+    and another copy would take two fifths of the time of a call. Tests of the crash itself start an interpreter."""
     messages = sys.modules.get("bielle_tools.messages")
     return unittest.mock.patch.object(messages, "_survive") if messages else contextlib.nullcontext()
 
 
 def run_script(script, arguments, folder, environment, output, errors):
-    """Runs a script as the main one of this process. output, errors: numbers of its streams. @returns its exit status"""
+    """Runs a script as the main module of this process. `output` and `errors` are numbers of its streams. @returns its
+    exit status"""
     status = 1
     try:
         os.dup2(output, 1)

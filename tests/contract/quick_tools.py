@@ -1,9 +1,9 @@
-"""Runs the Python tools as commands of a shell, each in a copy of one process that has imported their modules.
+"""Runs the Python tools as shell commands, each in a copy of one process that has imported their modules.
 
 Pages of the manual start the tools by name, and bielle-reduce starts convert_mesh.py for each deck, a hundred times in
-some tests. The imports of numpy, h5py, meshio, matplotlib and VTK take nine tenths of such a start. The commands in the
-folder of `quick_tools` pass their arguments, folder, environment and streams to a server of the test, whose copy runs the
-script of the tool (python_tool.py), and end with its exit status.
+some tests. The imports of numpy, h5py, meshio, matplotlib and VTK take nine tenths of the time of such a start. The
+commands in the folder of `quick_tools` pass their arguments, folder, environment and streams to a server of the test,
+whose copy runs the script of the tool (python_tool.py), and end with its exit status.
 """
 
 import contextlib
@@ -35,9 +35,10 @@ sys.exit(int(status))
 
 @contextlib.contextmanager
 def quick_tools(*packages):
-    """Yields a folder like tools/, whose Python commands are run by a server; the others, and the package, are links.
+    """Yields a folder like tools/, whose Python commands are run by a server; the other commands and the package are
+    links.
 
-    packages: those that are imported beforehand, as for `import_tools`
+    `packages` are imported beforehand, as by `import_tools`
     """
     import_tools(*packages)
     with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listening:
@@ -58,7 +59,7 @@ def quick_tools(*packages):
 
 
 class WithQuickTools(unittest.TestCase):
-    """The programs of a class find convert_mesh.py among quick tools."""
+    """Base class of tests whose programs use convert_mesh.py from `quick_tools`."""
 
     @classmethod
     def setUpClass(cls):
@@ -80,14 +81,14 @@ def _add(path, command, address):
 
 
 def _serve(listening):
-    """Runs each call in a copy of this process until a signal ends it."""
+    """Runs each call in a copy of this process, until a signal ends the server."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while True:
         connection, _ = listening.accept()
         with connection:
             if os.fork() == 0:
                 _answer(connection)
-        with contextlib.suppress(ChildProcessError):  # none is left
+        with contextlib.suppress(ChildProcessError):  # no process is left
             while os.waitpid(-1, os.WNOHANG)[0]:
                 pass
 

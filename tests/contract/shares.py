@@ -1,8 +1,8 @@
 """Divides long sweeps between the everyday tests and the long ones.
 
-A third of the cases is run everyday, another third at the next commit; the long tests run the others. BIELLE_SHARE of a
-ctest says which part it is (bielle_python_test with SHARED); without it all cases are run. BIELLE_TURN is the number of
-commits (tools/test).
+The everyday tests run a third of the cases, another third at the next commit; the long tests run the other cases.
+BIELLE_SHARE tells the part of a ctest (bielle_python_test with SHARED); without it all cases are run. BIELLE_TURN is
+the number of commits (tools/test).
 """
 
 import os
@@ -10,7 +10,7 @@ import unittest
 
 
 def share(items):
-    """Returns the items of this ctest."""
+    """Returns the items that belong to this ctest."""
     part, turn = os.environ.get("BIELLE_SHARE", "all"), int(os.environ.get("BIELLE_TURN") or 0)
     if part not in ("everyday", "rest", "all"):
         raise ValueError(f"BIELLE_SHARE is '{part}', expected 'everyday', 'rest' or 'all'")
@@ -20,7 +20,7 @@ def share(items):
 
 
 def share_of_tests(_loader, tests, _pattern):
-    """Gives a module that calls it `load_tests` its share of its test methods, class by class."""
+    """Selects the share of test methods of each class, in a module that imports this function as `load_tests`."""
     return unittest.TestSuite(share(list(_each(tests))))
 
 

@@ -1,4 +1,4 @@
-// Times and arguments of the program that compare_reduction runs.
+// Functions for times and arguments of the program that compare_reduction runs.
 #pragma once
 
 #include <algorithm>

@@ -16,16 +16,16 @@ NEWTON = ("newton raphson", "newton raphson, modified, 5", "newton raphson, modi
 COMPARED_NODES = {"slider-crank": "piston", "superelement, 30 modes": "b", "spin-up, 10 beams": "tip", "100 spherical": "b99",
                   "100 hinges": "b99", "500 spherical": "b499"}
 SETTINGS = tuple(itertools.product(SOLVERS, NEWTON))
-ABOUT_Y = "1, 1.,0.,0., 3, 0.,1.,0."  # orientation whose third axis is y
+ABOUT_Y = "1, 1.,0.,0., 3, 0.,1.,0."  # orientation with y as its third axis
 
 
 class Model:
-    """Entries of an input file by their keyword."""
+    """Returns the entries of an input file by their keyword."""
 
     def __init__(self):
         self.nodes, self.elements, self.counts = [], [], {}
         self.has_gravity = True
-        # Tolerance of the first accelerations; without them the first step has an error of first order.
+        # Tolerance of the first accelerations, without which the first step has an error of first order.
         self.start_tolerance = 1e-4
 
     def node(self, position, kind="dynamic", velocity="null", rate="null"):
@@ -123,7 +123,7 @@ def modal_bar(fem, modes, root, tip):
 
 
 def modal_body(superelement, folder):
-    """Writes the body of a superelement for MBDyn. Groups 14 and above are left out, which MBDyn of 2021 does not read.
+    """Writes the body of a superelement for MBDyn, without groups 14 and above, which MBDyn of 2021 does not read.
     @returns its path, the count of modes, and the numbers of the first two nodes"""
     path = os.path.join(folder, "bar.fem")
     subprocess.run([os.path.join(ROOT, "tools", "bielle-exchange"), superelement, path], check=True, capture_output=True)
@@ -154,7 +154,7 @@ def command(program, path, output):
 
 
 def fastest_setting(program, model, steps, size, folder):
-    """Runs a model once with each setting. @returns the fastest one that converges"""
+    """Runs a model once with each setting. @returns the fastest setting that converges"""
     times = {}
     for setting in SETTINGS:
         path = os.path.join(folder, "tried.mbd")

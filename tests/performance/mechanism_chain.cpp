@@ -3,21 +3,19 @@
 //   performance_mechanism_chain [LINKS ...]      default 10 100 500, then a beam of 50 elements
 //   performance_mechanism_chain --run MODEL automatic|reused|renewed LINKS STEPS      one run, for step_shares
 //
-// Its joints are spherical, the cheapest type, or hinges, and the links of the latter rigid or elastic (a beam element
-// each). The beam falls likewise. Each model runs with every step recorded, as a user runs it, in turns with tangents
+// The joints are spherical, the cheapest type, or hinges; links between hinges are rigid, or elastic (one beam element
+// each). The beam falls as well. Each model runs with every step recorded, as a user runs it, in turns with tangents
 // renewed, reused, and as their counted costs decide (`automatic`). The parts are then measured one by one at the last
 // state: residuals and tangents (elements with their assembly), energies and memory, the motion of the nodes (rotations
 // and what follows from them), factorisation, solution; and output as the difference of the runs with and without it;
 // all in time of the processor. The rest is the scheme's: prediction, tests of convergence, records. Work that a run
 // does once, when its file is closed, is reported separately. step_shares measures the share of assembly in residuals
 // and tangents.
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -56,8 +54,8 @@ joints: {{pivot: {{type: hinge, nodes: [ground, a], axis: [0, 1, 0]}}}}
 struct Run {
   double seconds = 0;         ///< elapsed
   double processor = 0;       ///< processor time of the computing thread in the steps
-  double end = 0;             ///< and when the file is closed
-  double all_processors = 0;  ///< and of the one that writes
+  double end = 0;             ///< processor time of closing the file
+  double all_processors = 0;  ///< processor time of all threads, including the one that writes
   long iterations = 0, factorisations = 0, evaluations = 0, solutions = 0, orders = 0, steps = 0;
   State state;
 };
@@ -114,7 +112,8 @@ constexpr Tangent policies[] = {Tangent::renewed, Tangent::reused, Tangent::auto
 constexpr const char* policy_names[] = {"renewed", "reused", "automatic"};
 using Runs = std::array<Run, std::size(policies)>;
 
-/// Returns the fastest of several runs with each policy, in turns: other work on the machine lengthens some of them.
+/// Returns the fastest of several alternating runs with each policy, since other work on the machine slows some of
+/// them.
 Runs fastest(const MechanismFile& file, const System& system, const std::string& results_path) {
   Runs best;
   for (int round = 0; round < 5; ++round)
@@ -126,24 +125,7 @@ Runs fastest(const MechanismFile& file, const System& system, const std::string&
   return best;
 }
 
-/// Returns the processor time of one call [s]: the fastest of several rounds.
-double time_of(const std::function<void()>& call) {
-  call();
-  double best = 1e9;
-  for (int round = 0; round < 10; ++round) {
-    const double start = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
-    const auto spent = [&] { return processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start; };
-    int calls = 0;
-    do {
-      call();
-      ++calls;
-    } while (spent() < 0.02);
-    best = std::min(best, spent() / calls);
-  }
-  return best;
-}
-
-/// Evaluates the memory that components keep from step to step.
+/// Evaluates the memory of components, which they keep from step to step.
 void evaluate_memory(const System& system, const State& state, const Environment& environment) {
   static VectorX memory;
   memory = state.memory;
@@ -157,7 +139,7 @@ std::string results_path() {
   return (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
 }
 
-/// Makes a long run alone, for a sampling profiler.
+/// Makes one long run, for a sampling profiler.
 int run_only(const std::string& model, const std::string& tangents, int links, long steps) {
   const std::string text = model == "spherical"  ? chain(links, spherical)
                            : model == "hinges"   ? chain(links, hinge)
@@ -201,7 +183,7 @@ void measure(const std::string& title, const std::string& text) {
     std::vector<double> values;
     const State& state = with.state;
     linear.factor(state, environment, weights, &dq);
-    // Each part is weighted by its calls per step.
+    // Each part has the weight of its calls per step.
     const auto steps = static_cast<double>(with.steps);
     const double iterations = static_cast<double>(with.iterations) / steps;
     const double tangents = static_cast<double>(with.factorisations) / steps;

@@ -2,9 +2,10 @@
 //
 //   performance_mechanism_contacts [BALLS_ALONG_A_SIDE]      default 10: 100 balls
 //
-// Side by side they touch the floor alone: free fall, contacts of each ball with the floor, and one group in which
-// every ball may touch every other. The difference of the last two is the cost of pairs that are far from each other.
-// In a bin they form a heap. Processor time, the least of three runs; all in one run of the program.
+// Balls side by side touch only the floor. They are measured in free fall, with contacts of each ball with the floor,
+// and as one group in which every ball may touch every other. The difference of the last two is the cost of pairs that
+// are far from each other. In a bin the balls form a heap. Each figure is the least processor time of three runs, all
+// in one run of the program.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>

@@ -4,9 +4,9 @@
 //   performance_mechanism_forms
 //
 // Each model runs with constraints of index 3 and with stabilised ones, with several rho, in steps of several sizes.
-// Errors are largest ones over all steps against a run in much smaller steps (stabilised, rho = 0.8): of the positions
-// of all nodes, and of the multipliers of holonomic constraints relative to the largest multiplier. The cost is
-// processor time.
+// Errors are the largest ones over all steps, relative to a run in much smaller steps (stabilised, rho = 0.8): those of
+// the positions of all nodes, and those of the multipliers of holonomic constraints relative to the largest multiplier.
+// The cost is processor time.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -126,8 +126,8 @@ elements: {m: {type: rigid_body, node: m, mass: 1, inertia: [0.01, 0.01, 0.01]}}
 joints: {pivot: {type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [0, 0, 1]}}
 )yaml";
 
-// The data of B. Simeon's slider-crank, but a rod a hundred times softer than steel: the steps resolve all of its
-// modes.
+// The data are those of B. Simeon's slider-crank, with a rod a hundred times softer than steel, so that the steps
+// resolve all of its modes.
 const char* const slider_crank = R"yaml(
 nodes:
   crank: {position: [0.075, 0, 0], velocity: [0, 11.25, 0], angular_velocity: [0, 0, 150]}

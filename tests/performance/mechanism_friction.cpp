@@ -2,8 +2,9 @@
 //
 //   performance_mechanism_friction [LINKS ...]      default 1 10 100
 //
-// Chains as in chain.hpp, released from the horizontal, 1 s in steps of 1 ms. Processor time per step of the computing
-// thread, the least of three runs, as a ratio to the chain without friction; all in one run of the program.
+// Chains as in chain.hpp are released from the horizontal and run for 1 s in steps of 1 ms. The figure is the least
+// processor time per step of the computing thread of three runs, also relative to the chain without friction; all runs
+// are in one run of the program.
 #include <cstdlib>
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-// The cost of modes of large models: hanging chains of elastic links, hinged in turn about two axes.
+// The cost of modes of large models: hanging chains of elastic links, with hinges about two alternating axes.
 //
 //   performance_mechanism_modes [LINKS] [MODES]
 //
@@ -38,7 +38,7 @@ std::string hanging_chain(int links) {
   return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
-/// Computes answers at many frequencies: one by one, and as a sum over modes.
+/// Computes responses at many frequencies, directly and as a sum over modes.
 void compare_responses(Session& session, int count, double highest) {
   FrequencyResponseOptions options;
   const int first = *session.model().find_node("b0"), next = *session.model().find_node("b1");

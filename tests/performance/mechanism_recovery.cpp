@@ -3,10 +3,10 @@
 //
 //   performance_mechanism_recovery [NODES] [FRAMES] [COORDINATES]      24000 60 32
 //
-// Elapsed times, the fastest of several rounds, with as many threads as OpenMP has (OMP_NUM_THREADS). Bytes are those
-// that must be moved at least: the recovery matrices once, and the fields. Bandwidth is that of a copy, counting bytes
-// read and written, by the same threads. With more than about ten coordinates the limit is not memory but
-// multiplications: they are measured as a product of square matrices.
+// Elapsed times, the fastest of several rounds, with as many threads as OpenMP has (OMP_NUM_THREADS). Bytes are the
+// minimum that must be moved: the recovery matrices once, and the fields. Bandwidth is that of a copy by the same
+// threads, counting bytes read and written. With more than about ten coordinates the limit is not memory but
+// multiplications, which are measured as a product of square matrices.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>

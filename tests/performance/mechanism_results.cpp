@@ -2,10 +2,10 @@
 //
 //   performance_mechanism_results named|stacked LINKS [ROWS]      ROWS: 20
 //
-// The links are those of a chain: a node, a rigid body and a hinge each, here as components that record as many numbers
-// and compute nothing. All times are processor times of both threads; for a row, the times for its numbers and for
-// copying them in memory are given separately, within the same run. One size per run, so that the peak of memory is its
-// own.
+// Each link has a node, a rigid body and a hinge, replaced by components that record as many numbers and compute
+// nothing. All times are processor times of both threads; for a row, the times for its numbers and for copying them in
+// memory are given separately, within the same run. A run has one size, so that its peak of memory belongs to this
+// size.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -97,7 +97,7 @@ void measure(ResultsLayout layout, int links, int rows) {
   took();
   results.begin_analysis("dynamic", static_cast<std::size_t>(rows) + 1);
   results.record(state, slots, model.environment, {});
-  results.file();  // waits for the row
+  results.file();  // waits until the row is written
   const double first = took();
   for (int k = 0; k < rows; ++k) {
     state.time = k;

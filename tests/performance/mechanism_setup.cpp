@@ -4,9 +4,9 @@
 //   performance_mechanism_setup [MODEL ...] [PARTS ...]      default: all models, 1000 and 10000 parts
 //   performance_mechanism_setup --orderings [MODEL ...] [PARTS ...]
 //
-// The models are those of tests/support/large_models.hpp. Each size runs in a process of its own, so that its peak of
-// memory is its own; times are processor times. Each figure is followed by its ratio to that of the previous size: 10
-// for ten times the parts is linear.
+// The models are those of tests/support/large_models.hpp. Each size runs in a separate process with its own peak of
+// memory; times are processor times. Each figure is followed by its ratio to that of the previous size: 10 for ten
+// times the parts is linear.
 //
 // The second form factorises the matrices of a step, of a consistent start and of statics with both orderings that KLU
 // has, and shows operations, entries of the factors and times. Minimum degree is slow if its pivots leave the diagonal:
@@ -51,7 +51,7 @@ struct Phase {
   double memory = 0;   ///< peak of the process so far [MB]
 };
 
-/// Reads the model with an element more, which names a node that does not exist: the nearest name is sought among all.
+/// Reads the model with one more element, which names a missing node: the nearest of all names is searched.
 void message_about_unknown_node(const std::string& text) {
   try {
     read_mechanism_text(text + "loads: {wrong: {node: noed, force: [0, 0, 1]}}\n", "model.yaml");
@@ -61,7 +61,7 @@ void message_about_unknown_node(const std::string& text) {
   throw std::runtime_error("the unknown node was not noticed");
 }
 
-/// Runs all phases in a row. @param report  takes each when it is done
+/// Runs all phases one after the other. @param report  called with each finished phase
 void run_phases(const std::string& text, bool stands, const std::function<void(const Phase&)>& report) {
   const auto phase = [&](const char* name, const std::function<void()>& work) {
     Phase done;
@@ -104,7 +104,7 @@ void run_phases(const std::string& text, bool stands, const std::function<void(c
   phase("message", [&] { message_about_unknown_node(text); });
 }
 
-/// Runs the phases in a process of its own.
+/// Runs the phases in a separate process.
 std::vector<Phase> run_apart(const LargeModel& model, int parts) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");

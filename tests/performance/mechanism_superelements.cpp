@@ -10,10 +10,10 @@
 //
 // Processor time of the calling thread, the fastest of several rounds, unless labelled elapsed, for work that other
 // threads shorten.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,11 +35,11 @@ using namespace bielle::performance;
 
 constexpr double step = 1e-3;
 
-/// The file of the bodies, which exists as long as this object.
+/// The file of the bodies, which is deleted with this object.
 class BodyFile {
  public:
   explicit BodyFile(int modes) {
-    const test::BeamProperties stiff{1, 1e7, 130, 100, 80, 1e-4};  // bends by a hundredth of its length
+    const test::BeamProperties stiff{1, 1e7, 130, 100, 80, 1e-4};  // bends by 0.01 of its length
     test::BeamChain beam = test::straight_beam(stiff, modes);
     beam.damping = 1e-4;
     write_superelement(beam.reduced().body, path_);
@@ -103,7 +103,7 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse) {
   return run;
 }
 
-/// Keeps the least of several runs: other work on the machine lengthens some of them.
+/// Keeps the least times of several runs, since other work on the machine slows some of them.
 void keep_fastest(const Run& run, Run& best) {
   if (best.state.nodes.empty()) best = run;
   best.processor = std::min(best.processor, run.processor);
@@ -111,24 +111,7 @@ void keep_fastest(const Run& run, Run& best) {
   best.elapsed = std::min(best.elapsed, run.elapsed);
 }
 
-/// Returns the time of one call [s]: the fastest of several rounds.
-double time_of(const std::function<void()>& call, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-  call();
-  double best = 1e9;
-  for (int round = 0; round < 10; ++round) {
-    const double start = processor_seconds(clock);
-    const auto spent = [&] { return processor_seconds(clock) - start; };
-    int calls = 0;
-    do {
-      call();
-      ++calls;
-    } while (spent() < 0.02);
-    best = std::min(best, spent() / calls);
-  }
-  return best;
-}
-
-/// Steps by one thread and by all, in turns. @returns the last state
+/// Measures steps by one thread and by all, alternately. @returns the last state
 State measure_steps(const MechanismFile& file, System& system, bool reuse) {
   Run alone, together;
   for (int round = 0; round < 3; ++round)
@@ -146,8 +129,8 @@ State measure_steps(const MechanismFile& file, System& system, bool reuse) {
   return together.state;
 }
 
-/// Evaluations of the superelements alone, one after the other, without their assembly. Superelements keep their last
-/// evaluation: residuals alternate between two states, tangents follow a residual of the same state.
+/// Evaluates the superelements one after the other, without assembly. Superelements keep their last evaluation, so that
+/// residuals alternate between two states, and tangents follow a residual of the same state.
 class Bodies {
  public:
   Bodies(const System& system, const State& state, const Environment& environment)
@@ -190,7 +173,7 @@ class Bodies {
   MatrixX K_, C_, M_;
 };
 
-/// Measures factors with and without condensation, in turns, so that other work on the machine affects both.
+/// Measures factors with and without condensation alternately, so that other work on the machine affects both.
 template <class Line, class Products>
 void compare_factors(const System& system, const NewtonMatrix& linear, const Line& line, const Products& products) {
   VectorX scales = VectorX::Ones(system.size());

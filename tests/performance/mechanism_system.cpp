@@ -3,8 +3,9 @@
 //   performance_mechanism_system [LINKS ...]      default 1000 10000 100000
 //
 // For each phase it prints the processor time, and its ratio per link to that of the previous chain: 1 if it is
-// proportional to the size of the model. Names are asked for of one unknown and equation per link, all over the model.
-// Memory is the heap memory of the system, per entry of the tangent's pattern, and the highest resident memory so far.
+// proportional to the size of the model. Names are requested of one unknown and one equation per link, over the whole
+// model. Memory is the heap memory of the system, per entry of the tangent's pattern, and the highest resident memory
+// so far.
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -26,7 +27,8 @@ using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::performance;
 
-/// Links of 1 m and 1 kg along x, each hinged to the one before about y, the first to the ground.
+/// Links of 1 m and 1 kg along x. A hinge about y connects each link with the previous one, and the first one with the
+/// ground.
 void add_chain(Model& model, int links) {
   MassProperties link;
   link.mass = 1;
@@ -99,7 +101,7 @@ void evaluate(const System& system, const Environment& environment, const State&
   ResidualScale scale;
   std::vector<double> values;
   const TangentWeights weights{1, 2e3, 4e6, 0, 1};
-  for (int round = 0; round < 2; ++round) {  // the first touches the memory
+  for (int round = 0; round < 2; ++round) {  // the first call touches the memory
     phases.measure("residual", [&] { system.residual(state, environment, r, &scale); });
     phases.measure("tangent", [&] { system.tangent(state, environment, weights, &dq, values); });
   }

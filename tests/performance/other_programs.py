@@ -1,4 +1,5 @@
-"""Programs run alone, for compare_reduction and race; the rod of compare_reduction, and its matrices in files."""
+"""Runs of single programs for compare_reduction and race, and the rod of compare_reduction with its matrices in
+files."""
 
 import glob
 import os
@@ -25,7 +26,8 @@ recovery: {{displacement: all, stress: surface}}
 
 
 class Run:
-    """One run of a program: its output, elapsed and processor seconds, and the largest memory of its processes together [GB]."""
+    """One run of a program, with output, elapsed and processor time [s], and the largest total memory of its processes
+    [GB]."""
 
     def __init__(self, command, folder, processes=1, **environment):
         variables = {k: v for k, v in os.environ.items() if not k.startswith("OPENBLAS_")}
@@ -53,14 +55,14 @@ def petsc_path(package):
 
 
 def on_ranks(command, processes):
-    """The command on so many of MPI's ranks."""
+    """Returns the command for a number of MPI ranks."""
     if processes == 1:
         return command
     return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(processes)] + command
 
 
 def read_symmetric(folder, name):
-    """Reads both triangles, as scipy's CSR."""
+    """Reads a matrix with both triangles, as scipy's CSR."""
     import scipy.sparse
 
     starts = np.fromfile(os.path.join(folder, name + ".starts"), dtype=np.int64)
@@ -71,7 +73,7 @@ def read_symmetric(folder, name):
 
 
 def petsc_matrix(folder, name):
-    """Makes a matrix of PETSc from the rows of each rank: positive definite."""
+    """Makes a positive definite matrix of PETSc from the rows of each rank."""
     from petsc4py import PETSc
 
     whole = read_symmetric(folder, name)

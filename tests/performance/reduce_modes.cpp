@@ -40,7 +40,7 @@ struct Settings {
   int rounds = 2, threads = available_processors();
 };
 
-/// Elapsed time, and processor time of all threads, which neighbours on the machine lengthen less.
+/// Elapsed time, and processor time of all threads, which other work on the machine affects less.
 struct Seconds {
   double elapsed = 1e300, processor = 1e300;
 

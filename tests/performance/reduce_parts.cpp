@@ -1,13 +1,13 @@
-// The bare work below a reduction, and its matrices for other programs.
+// The basic operations of a reduction, and its matrices for other programs.
 //
 //   reduce_parts BODY.yaml FOLDER
 //
 // Writes into the folder the data that compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the points
 // inside (lower triangles by columns: starts, rows as int64, values as float64), the first unknown of each point and
 // then their number, points [m], cells (their nodes, from 0, as int64) and the numbers of tied points. Rigid ties hold
-// all points of their surfaces; average ties leave them free, and a reduction holds the remaining motions by a few
-// supports: they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading
-// memory, and time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
+// all points of their surfaces. Average ties leave them free, and a reduction holds the remaining motions by a few
+// supports, which are held here as well. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of
+// reading memory, and time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
 #include <fstream>
 #include <string>
 #include <vector>
@@ -83,7 +83,8 @@ void run(const std::string& body, const std::string& folder, int threads) {
   Progress progress(true);
   const Mesh mesh = import_mesh(file.mesh, progress);
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
-  const Eigen::MatrixXi& nodes = solid.cells.nodes_of(solid.cells.ranges().front());  // other programs take one type
+  // Other programs accept only one type of cell.
+  const Eigen::MatrixXi& nodes = solid.cells.nodes_of(solid.cells.ranges().front());
   const Ties ties = make_ties(solid, file.options.interfaces);
   const std::vector<std::int64_t> kept = HeldFreedoms(solid, ties).interior().kept;
   std::vector<std::int64_t> starts, tied;
@@ -101,7 +102,7 @@ void run(const std::string& body, const std::string& folder, int threads) {
   write(folder + "/cells", Eigen::Matrix<std::int64_t, -1, -1>(nodes.cast<std::int64_t>()));
   write(folder + "/tied", tied);
 
-  SymmetricFactor(stiffness, starts, threads);  // the first one takes fresh memory
+  SymmetricFactor(stiffness, starts, threads);  // the first one allocates new memory
   const SymmetricFactor factor(stiffness, starts, threads);
   const FactorStatistics& statistics = factor.statistics();
   fmt::print(

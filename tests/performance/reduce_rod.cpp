@@ -33,10 +33,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The bare work: one factorisation of the body held at its interfaces, and solutions one by one.
+/// The basic operations: one factorisation of the body held at its interfaces, and single solutions.
 struct Bare {
   FactorStatistics factor;
-  double solutions = 0;  ///< 80 single ones [s]
+  double solutions = 0;  ///< 80 single solutions [s]
 };
 
 Bare measure_bare(const Mesh& mesh, const ReductionOptions& options, int threads) {
@@ -61,9 +61,9 @@ void measure(double size, int threads) {
   const Mesh mesh = import_mesh(file.mesh, progress);
   progress.finish();
   const std::size_t meshing = progress.phases().size();
-  // The system provides memory slowly when it is first touched (above all on a virtual machine): the first
-  // factorisation would include that time. A previous bare factorisation makes both equal, and is shown next to the one
-  // that counts.
+  // The system provides memory slowly when it is first touched, especially on a virtual machine, and the first
+  // factorisation would include that time. A factorisation beforehand avoids this, and is shown next to the one that
+  // counts.
   const Bare cold = measure_bare(mesh, file.options, threads);
   ReductionReport report;
   const auto start = std::chrono::steady_clock::now();

@@ -2,9 +2,9 @@
 //
 //   reduce_small_factors
 //
-// Prints, for solids of 3 unknowns per grid point, each coupled with those of 26 neighbours (as tetrahedra couple
-// them, or less), processor time [ms] of the factorisation, its structure included, and of 200 solutions with a column,
-// of each: about what a reduction with modes asks of it. Nothing is asserted.
+// Solids have 3 unknowns per grid point, which are coupled with those of up to 26 neighbours, as by tetrahedra. For
+// each factor, the program prints the processor time [ms] of the factorisation with its structure, and of 200 solutions
+// with one column, about the work for a reduction with modes. Nothing is asserted.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace bielle;
 
-/// Returns the matrix of a grid of n x n x length points; its diagonal dominates.
+/// Returns the diagonally dominant matrix of a grid of n x n x length points.
 SymmetricMatrix solid(int n, int length, std::vector<std::int64_t>& blocks) {
   SymmetricMatrix a;
   const int points = n * n * length;

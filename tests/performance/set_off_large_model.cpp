@@ -1,5 +1,5 @@
 // set_off_large_model MODEL PARTS: reads, describes, sets up and starts a mechanism of many parts, as --check does, and
-// makes its first steps. tests/performance/growth counts what that costs.
+// makes its first steps. tests/performance/growth counts its cost.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

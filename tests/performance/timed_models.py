@@ -16,7 +16,7 @@ def finished(parts, steps, size, layout=None):
 
 
 def chain(links, joint, steps, layout=None):
-    """Rigid links of 1 m and 1 kg, released from the horizontal."""
+    """Returns rigid links of 1 m and 1 kg, released from the horizontal."""
     parts = ["gravity: [0, 0, -9.81]", "nodes:"]
     parts += [f"  b{k}: {{position: [{k + 0.5}, 0, 0]}}" for k in range(links)]
     parts += ["elements:"]
@@ -29,7 +29,7 @@ def chain(links, joint, steps, layout=None):
 
 
 def slider_crank(steps):
-    """Rigid crank, rod and piston, driven by a torque."""
+    """Rigid crank, rod and piston, which a torque drives."""
     return finished(["""gravity: [0, 0, -9.81]
 nodes: {crank: {position: [0.1, 0, 0]}, rod: {position: [0.5, 0, 0]}, piston: {position: [0.8, 0, 0]}}
 elements:
@@ -45,7 +45,7 @@ drives: {motor: {joint: main, torque: "2*sin(30*t)"}}"""], steps, 1e-4)
 
 
 def spin_up(steps):
-    """The arm of Simo and Vu-Quoc that is spun up (tests/benchmarks/beams/test_spin_up.cpp), of ten elements."""
+    """The arm of Simo and Vu-Quoc, which is spun up (tests/benchmarks/beams/test_spin_up.cpp), with ten elements."""
     return finished(["""nodes: {hub: {}, tip: {position: [10, 0, 0]}}
 elements:
   arm: {type: beam, nodes: [hub, tip], elements: 10,
@@ -56,7 +56,7 @@ drives: {motor: {joint: pivot, angle: "if(t < 15, 0.4*(t^2/2 + (15/(2*pi))^2*(co
 
 
 def superelement(file, steps):
-    """A bar of a solid mesh with 30 modes, as a pendulum."""
+    """A pendulum that is the reduction of a solid mesh with 30 modes."""
     return finished([f"""gravity: [0, 0, -9.81]
 nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}}}
 elements: {{bar: {{type: superelement, file: {file}, nodes: {{root: a, tip: b}}}}}}

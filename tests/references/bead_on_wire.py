@@ -1,7 +1,8 @@
 """A bead of 2 kg on a closed wire in space with friction, under gravity.
 
-m (|c'| u'' + t . c'' u'^2 - g . t) = -N mu tanh(v/v_0), N = m |(I - t t^T)(c'' u'^2 - g)|, c the cubic spline through
-240 points with periodic ends by chord length, by DOP853 in steps of at most 2e-4 s, since its third derivative jumps.
+The equation is m (|c'| u'' + t . c'' u'^2 - g . t) = -N mu tanh(v/v_0), N = m |(I - t t^T)(c'' u'^2 - g)|. The curve c
+is the periodic cubic spline through 240 points over the chord length. DOP853 integrates in steps of at most 2e-4 s,
+since the third derivative of c jumps.
 """
 import numpy as np
 from scipy.integrate import quad
@@ -27,7 +28,7 @@ def fill(rows):
     first, second = c.derivative(1), c.derivative(2)
 
     def along(u, rate):
-        """Unit tangent, |c'|, the part of c'' u'^2 - g across the wire, and the part along it."""
+        """Returns the unit tangent, |c'|, the part of c'' u'^2 - g across the wire, and the part along it."""
         d = first(u)
         size = np.linalg.norm(d)
         t, pull = d / size, second(u) * rate**2 - gravity

@@ -1,7 +1,7 @@
 """The 45-degree bend (K.-J. Bathe, S. Bolourchi, Int. J. Numer. Methods Eng. 14 (1979) 961), by shooting.
 
-An arc of radius 100 in the plane x-y from the origin along y to (29.29, 70.71, 0), section 1 x 1, E = 1e7, nu = 0, a
-dead load along z at the tip.
+The arc has the radius 100 in the plane x-y, and runs from the origin along y to (29.29, 70.71, 0). The section is 1 x
+1, E = 1e7, nu = 0. A dead load acts along z at the tip.
 """
 import numpy as np
 
@@ -10,13 +10,14 @@ import table
 
 E, G, I = 1e7, 5e6, 1 / 12
 length = 25 * np.pi
-# The arc's tangent along y, its normal to the centre along x, and across the plane -z: the curvature is about that.
+# The tangent of the arc is along y, the normal to its centre along x, and the third axis along -z, about which the arc
+# is curved.
 root = np.array([[0, 1, 0], [1, 0, 0], [0, 0, -1]], float)
 CASES = {"polar": (G / 6, 1), "reduced_shear": (G / 6, 5 / 6), "own": (G * rods.saint_venant(1, 1), 5 / 6)}
 
 
 def tips(GJ, shear, loads):
-    """Positions of the tip under loads that ascend."""
+    """Returns the positions of the tip under ascending loads."""
     rod = rods.Space(GJ, E * I, E * I, E, shear * G, shear * G)
     moment, P, found = np.zeros(3), 0, []
 

@@ -1,10 +1,10 @@
 """Bricard's mechanism of the IFToMM library (A04): five rods and the ground, six hinges, one degree of freedom
 although the constraints are redundant.
 
-The rods lie along edges of a cube at the start: from the origin along x, -y, z, -x, y to (0, 0, 1); the hinges turn
-about y, z, x, y, z, x. Rods of 1 m and 1 kg, 0.1 m square, gravity 9.81 m/s^2 along -y, at rest. The chain of five
-rods has the relative angles q; its end closes on the ground by five equations B qdot = 0 of rank four. The motion
-along their null vector n follows from n^T (M qddot + h) = 0.
+The rods are along edges of a cube at the start: from the origin along x, -y, z, -x, y to (0, 0, 1); the axes of the
+hinges are y, z, x, y, z, x. The rods have 1 m, 1 kg and a square section of 0.1 m; gravity is 9.81 m/s^2 along -y, and
+the start is at rest. The chain of five rods has the relative angles q. Five equations B qdot = 0 of rank four connect
+its end with the ground. The motion along their null vector n follows from n^T (M qddot + h) = 0.
 """
 import numpy as np
 
@@ -13,19 +13,19 @@ import table
 
 EX, EY, EZ = np.eye(3)
 AXES, RODS = [EY, EZ, EX, EY, EZ], [EX, -EY, EZ, -EX, EY]
-CLOSING, PLACE = EX, np.array([0.0, 0.0, 1.0])  # axis and place of the sixth hinge
+CLOSING, PLACE = EX, np.array([0.0, 0.0, 1.0])  # axis and position of the sixth hinge
 GRAVITY = np.array([0, -9.81, 0])
 LENGTHWAYS, ACROSS = 0.02 / 12, 1.01 / 12       # moments of inertia of a rod about its own axis and across
 
 
 def turn(axis, angle):
-    """A rotation about one of the coordinate axes."""
+    """Returns a rotation about one of the coordinate axes."""
     K = motion.cross_matrix(axis)
     return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 
 
 class Chain:
-    """The open chain at (q, qdot): mass matrix, forces, closing equations, and places of its hinges."""
+    """Returns mass matrix, forces, closing equations and positions of the hinges of the open chain at (q, qdot)."""
 
     def __init__(self, q, qdot):
         R, p, omega, alpha, a = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)

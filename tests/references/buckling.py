@@ -1,7 +1,7 @@
-"""Critical loads out of the plane, with the bending before: a cantilever strip and right-angle frames, by shooting.
+"""Critical loads out of the plane after in-plane bending: a cantilever strip and right-angle frames, by shooting.
 
-Frames stretch and shear, strips do not. Out of the plane the equations are linear about the bent shape; the determinant
-of what is left at the far end vanishes at a critical load.
+Frames have axial and shear strain, strips do not. The equations out of the plane are linear about the bent shape; the
+determinant of the conditions at the far end is zero at a critical load.
 """
 import numpy as np
 from scipy.optimize import brentq
@@ -9,25 +9,25 @@ from scipy.optimize import brentq
 import rods
 import table
 
-QUARTER = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]], float)  # the second leg turns by -90 degrees about z
+QUARTER = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]], float)  # the second leg is rotated by -90 degrees about z
 
 
 def upright(angle):
-    """Axes along an angle in the plane x-y, the second across z, the third along z."""
+    """Returns axes: the first one at an angle in the plane x-y, the third one along z."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
 class Cantilever:
-    """Legs of equal length clamped at the root, dead load P (x, y) at the tip.
+    """Two legs of equal length are clamped at the root, with a dead load P (x, y) at the tip.
 
-    Unknowns: the moments at the root. The tip has none.
+    The unknowns are the moments at the root; those at the tip are zero.
     """
 
     def __init__(self, rod, length, legs, angle, direction):
         self.rod, self.length, self.legs, self.angle = rod, length, legs, angle
         self.direction = np.array([[direction[0]], [direction[1]], [0]], float)
-        # The load's arm about the root at rest, for a first guess.
+        # Returns the arm of the load about the root at rest, for a first guess.
         tip = length * sum(upright(angle - k * np.pi / 2)[:, 0] for k in range(legs))
         self.moment = tip[0] * direction[1] - tip[1] * direction[0]
 
@@ -46,12 +46,12 @@ class Cantilever:
 
 
 class Hinged:
-    """Two legs from the left over the apex to the right, moments M and -M about z at the ends, which slide along x and
-    turn about z alone.
+    """Two legs run from the left over the apex to the right.
 
-    Unknowns out of the plane: force along z, moments about x and y at the left end. At the right one, z and the
-    rotations about x and y are zero. In the plane the legs are arcs; by symmetry the left one's end stands at
-    45 degrees at the apex.
+    Moments M and -M about z act at the ends, which can only slide along x and rotate about z. The unknowns out of the
+    plane are the force along z and the moments about x and y at the left end; z and the rotations about x and y are
+    zero at the right end. The legs are arcs in the plane; by symmetry, the left leg has the angle of 45 degrees at the
+    apex.
     """
 
     def __init__(self, rod, length, sign):
@@ -60,14 +60,14 @@ class Hinged:
     def end(self, M, u):
         zero = 0 * u[0]
         bent = self.sign * M / self.rod.bending[2] * self.length
-        # The section carries the load at the left end, with the opposite sign.
+        # The section has the load at the left end with the opposite sign.
         m = np.array([u[1], u[2], zero - self.sign * M])
         z = rods.start([0, 0, 0], upright(np.pi / 4 + bent), m)
         force = np.array([zero, zero, u[0]])
         z = self.rod.advance(z, force, self.length, steps=12)
         z = self.rod.advance(rods.turned(z, QUARTER), force, self.length, steps=12)
         R = z[3:12].reshape(3, 3, -1)
-        # Linear in the rotations about x and y: the axis along z has turned.
+        # The load is linear in the rotations about x and y, which move the axis along z.
         return np.array([z[2] / self.length, R[2][0], R[2][1]])
 
     def determinant(self, M):
@@ -78,7 +78,7 @@ class Hinged:
 
 
 def critical(model, begin, step):
-    """The first load at which the determinant changes its sign."""
+    """Returns the first load at which the determinant changes its sign."""
     before = model.determinant(begin)
     while True:
         after = model.determinant(begin + step)
@@ -89,7 +89,7 @@ def critical(model, begin, step):
 
 def fill(rows):
     for ratio in (1e-3, 1e-2, 0.05, 0.1):
-        # L = GJ = EI_w = 1; the load acts along -y, in which the strip is stiff.
+        # L = GJ = EI_w = 1, and the load acts along -y, the stiff direction of the strip.
         strip = Cantilever(rods.Space(1, 1, 1 / ratio), 1, 1, 0, (0, -1))
         rows.add(f"strip_{ratio:g}", critical(strip, 3, 0.25), 1e-9, "P L^2/sqrt(EI_w GJ)")
     E, G = 73e9, 73e9 / 2.6

@@ -1,8 +1,9 @@
 """Stiffness and mass of single solid cells by CalculiX: quadratic forms u^T K v and u^T M v of four fields.
 
-`affine` cells are images of the reference cell under a linear map, `distorted` ones have straight edges that are not
-parallel. The material has E = 200000, a ratio of 0.3 and the density 4. Tetrahedra have corners at 0 and at the three
-unit points, wedges these triangles and heights -1 .. 1, hexahedra -1 .. 1 in each direction.
+`affine` cells are images of the reference cell under a linear map; `distorted` ones have straight edges that are not
+parallel. The material has E = 200000, Poisson's ratio 0.3 and the density 4. Reference tetrahedra have corners at 0 and
+at the three unit points, wedges have this triangle from -1 to 1 in height, and hexahedra range from -1 to 1 in each
+direction.
 """
 import os
 import shutil
@@ -26,7 +27,7 @@ A = np.array([[1.1, 0.2, -0.1], [0.1, 0.9, 0.3], [0.05, -0.2, 1.2]])
 
 
 def nodes(kind):
-    """Places in the reference cell."""
+    """Returns places in the reference cell."""
     corners = np.array(TYPES[kind], dtype=float)
     if int(kind.rstrip("IR")[3:]) == len(corners):
         return corners
@@ -34,19 +35,19 @@ def nodes(kind):
 
 
 def distorted(x):
-    """Adds products of coordinates, which leave the edges of wedges and hexahedra straight."""
+    """Adds products of coordinates, which keep the edges of wedges and hexahedra straight."""
     r, s, t = x.T
     return x @ A.T + 0.1 * np.array([r * t, 0.5 * s * t, -r * t]).T
 
 
 def field(k, x):
-    """Displacements at places (n,3), row by row."""
+    """Returns displacements at places (n,3), row by row."""
     return np.array([np.sin(1 + k + 2 * i + (1 + 0.3 * k) * x[:, 0] + (0.5 + 0.1 * k) * x[:, 1] - 0.7 * x[:, 2])
                      for i in range(3)]).T.ravel()
 
 
 def matrices(kind, x):
-    """K and M (3n,3n), unknowns node by node."""
+    """Returns K and M (3n,3n), with unknowns node by node."""
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "cell.inp"), "w", encoding="utf-8") as file:
             file.write("*NODE, NSET=ALL\n")
@@ -61,7 +62,7 @@ def matrices(kind, x):
         order = np.loadtxt(os.path.join(folder, "cell.dof"), dtype=str)
         place = [3 * (int(node) - 1) + int(direction) - 1 for node, direction in (word.split(".") for word in order)]
         K, M = (symmetric(np.loadtxt(os.path.join(folder, "cell." + ending)), place) for ending in ("sti", "mas"))
-    # C3D8I has internal modes at nodes of its own, whose amplitudes are condensed.
+    # C3D8I has internal modes at additional nodes, whose amplitudes are condensed.
     count = 3 * len(x)
     outer, inner = K[:count, :count], K[count:, count:]
     coupling = K[:count, count:]

@@ -1,6 +1,6 @@
-"""The double pendulum of two masses of 1 kg on rods of 1 m, released level: angles of the rods from the vertical.
+"""The double pendulum of two masses of 1 kg on rods of 1 m, which is released from the horizontal.
 
-Lagrange's equations in the two angles, by DOP853.
+DOP853 integrates Lagrange's equations in the angles of the rods from the vertical.
 """
 import numpy as np
 

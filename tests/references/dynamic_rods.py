@@ -1,16 +1,16 @@
-"""Geometrically exact rods that move, by one spectral element: nodes and quadrature of Gauss and Lobatto.
+"""Moving geometrically exact rods, by one spectral element with nodes and quadrature of Gauss and Lobatto.
 
-With the section's rotation R, strains Gamma = R^T x' - e_1 and K = axial(R^T R'), n = R C_n Gamma, m = R C_m K:
-    mass x'' = n' + load,   d/dt (R J Omega) = m' + x' x n + load,
-multiplied by the nodes' polynomials and integrated by parts. Errors fall exponentially with the number of nodes.
+With the section's rotation R, the strains are Gamma = R^T x' - e_1 and K = axial(R^T R'), and n = R C_n Gamma, m = R
+C_m K. The equations mass x'' = n' + load, d/dt (R J Omega) = m' + x' x n + load are multiplied by the nodes'
+polynomials and integrated by parts. Errors decrease exponentially with the number of nodes.
 """
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 
 class Element:
-    """Nodes s from 0 to a length, their weights, and the matrix D, which maps values at the nodes to derivatives
-    there."""
+    """Returns nodes s from 0 to a length, their weights, and the matrix D, which maps values at the nodes to
+    derivatives there."""
 
     def __init__(self, length, nodes):
         p = np.polynomial.legendre.Legendre.basis(nodes - 1)
@@ -26,7 +26,7 @@ class Element:
         self.back = -self.D.T * self.weight  # from the integration by parts
 
     def value(self, f, s):
-        """Value at a place of the polynomial with these values at the nodes."""
+        """Returns the value at a place of the polynomial with given values at the nodes."""
         near = s - self.s
         if np.abs(near).min() < 1e-14:
             return f[np.abs(near).argmin()]
@@ -50,7 +50,7 @@ class PlaneRod:
         return np.array([origin[0] + s * np.cos(angle), origin[1] + s * np.sin(angle), angle + 0 * s])
 
     def forces(self, q):
-        """On the nodes. More axes may stand before the last two."""
+        """Returns the forces on the nodes. More axes may precede the last two."""
         d = q @ self.element.D.T
         c, s = np.cos(q[..., 2, :]), np.sin(q[..., 2, :])
         x, y = d[..., 0, :], d[..., 1, :]
@@ -69,7 +69,7 @@ class PlaneRod:
 
 
 class SpaceRod:
-    """Moves in space; states hold x (3 rows), R (9, by rows), v (3) and Omega (3, in the section's axes)."""
+    """Rod in space. States contain x (3 rows), R (9, by rows), v (3) and Omega (3, in the section's axes)."""
 
     def __init__(self, length, nodes, EA, GA, GJ, EI, mass, J):
         self.element = Element(length, nodes)
@@ -115,8 +115,8 @@ class SpaceRod:
 
 
 class Gauss:
-    """q'' = a(t, q, q') by Gauss' collocation with three stages: order 6, stable for components of any frequency that
-    are not excited."""
+    """Integrates q'' = a(t, q, q') by Gauss' collocation with three stages, which has order 6 and is stable for
+    components of any frequency that are not excited."""
 
     r = np.sqrt(15)
     c = np.array([0.5 - r / 10, 0.5, 0.5 + r / 10])

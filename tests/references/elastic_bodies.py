@@ -1,8 +1,8 @@
 """Frequencies of elastic bodies in closed form, by their dispersion relations: a thick plate, and a sphere.
 
-The plate of 10 x 10 x 1 m (E = 200 GPa, nu = 0.3, 8000 kg/m^3) is simply supported: waves of Lamb's kind fit between
-its sides, with k = pi sqrt(m^2 + n^2)/10. The sphere of radius 1 m (E = 210 GPa, nu = 0.3, 7800 kg/m^3): H. Lamb, Proc.
-London Math. Soc. 13 (1882) 189.
+The plate of 10 x 10 x 1 m (E = 200 GPa, nu = 0.3, 8000 kg/m^3) is simply supported: Lamb waves fit between its sides
+with k = pi sqrt(m^2 + n^2)/10. The sphere has the radius 1 m (E = 210 GPa, nu = 0.3, 7800 kg/m^3; H. Lamb, Proc. London
+Math. Soc. 13 (1882) 189).
 """
 import mpmath
 from mpmath import mpf, pi, sqrt
@@ -20,7 +20,7 @@ def plate(rows):
             p2, q2 = omega**2 / c_l**2 - k * k, omega**2 / c_t**2 - k * k
             return mpmath.sqrt(mpmath.mpc(p2)), mpmath.sqrt(mpmath.mpc(q2)), q2
 
-        # Both are even in p and q, hence real; divided by p or q they have no roots of their own there.
+        # Both are even in p and q, hence real. Divided by p or q they have no additional roots at p = 0 or q = 0.
         def bending(omega):
             p, q, q2 = split(omega)
             a, b = p * half, q * half
@@ -40,14 +40,15 @@ def plate(rows):
             if m + n == 0:
                 continue
             k = pi * mpf(m * m + n * n)**mpf("0.5") / side
-            # The deflection is a product of sines: there is none without waves both ways.
+            # The deflection is a product of sines, which is zero unless there are waves in both directions.
             for function in functions(k) if m * n else ():
                 lines = [2 * pi * mpf(f) for f in range(5, 231, 5)]
                 values = [function(omega) for omega in lines]
                 for a, b, before, after in zip(lines, lines[1:], values, values[1:]):
                     if before * after < 0:
                         found.append(mpmath.findroot(function, (a, b), solver="anderson", tol=1e-30) / (2 * pi))
-            # Horizontal shear, which moves along the sides alone: one such wave for m and n from 0 on, but not both.
+            # Horizontal shear moves only along the sides: there is one such wave for m and n from 0 on, unless both are
+            # 0.
             shear = k * c_t / (2 * pi)
             if shear < 230:
                 found.append(shear)
@@ -62,11 +63,11 @@ def sphere(rows):
 
     def j(n, x):
         return sqrt(pi / (2 * x)) * mpmath.besselj(n + mpf("0.5"), x)
-    # Torsion of the degree 2: no shear stress on the surface, (n - 1) j_n = x j_(n+1).
+    # Torsion of degree 2 has no shear stress on the surface, (n - 1) j_n = x j_(n+1).
     x = mpmath.findroot(lambda x: j(2, x) - x * j(3, x), (mpf("2.3"), mpf("2.7")), solver="anderson", tol=1e-30)
     rows.add("sphere.torsion_root", x, 1e-12, "omega R sqrt(rho/G)")
     rows.add("sphere.torsion", x * c_t / (2 * pi), 1e-9, "frequency [Hz]")
-    # Breathing: u = j_1(k r) outwards, (lambda + 2 G) u' + 2 lambda u/r = 0 at r = 1.
+    # The breathing mode has u = j_1(k r) outwards, and (lambda + 2 G) u' + 2 lambda u/r = 0 at r = 1.
     ratio = nu / (1 - nu)  # lambda/(lambda + 2 G)
     x = mpmath.findroot(lambda x: mpmath.diff(lambda r: j(1, x * r), 1) + 2 * ratio * j(1, x), (mpf(2), mpf(3)),
                         solver="anderson", tol=1e-20)

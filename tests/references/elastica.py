@@ -1,6 +1,7 @@
 """The cantilever of length 1 and EI = 1 under a dead load alpha across its tip, by shooting.
 
-Inextensible (K. Mattiasson, Int. J. Numer. Methods Eng. 17 (1981) 145), and Reissner's rod of EA = 1200, GA = 1000/2.6.
+One cantilever is inextensible (K. Mattiasson, Int. J. Numer. Methods Eng. 17 (1981) 145), the other one is Reissner's
+rod of EA = 1200, GA = 1000/2.6.
 """
 import numpy as np
 
@@ -9,7 +10,7 @@ import table
 
 
 def tip(alpha, EA, GA):
-    """Position and slope of the tip."""
+    """Returns position and slope of the tip."""
     rod = rods.Plane(1, EA, GA)
 
     def end(m):

@@ -1,7 +1,7 @@
-"""Craig and Bampton's method on Bernoulli's beam: relative errors of its frequencies against the number of modes.
+"""Craig and Bampton's method for Bernoulli's beam: relative errors of frequencies over the number of modes.
 
-Boundary functions are Hermite's polynomials (statically exact), fixed-boundary modes the exact ones of the beam that is
-clamped at both ends; integrals by Gauss' rule. Length, EI and mass per length are 1.
+Boundary functions are Hermite's polynomials (statically exact), and fixed-boundary modes the exact ones of the beam
+that is clamped at both ends. Integrals use Gauss' rule. Length, EI and mass per length are 1.
 """
 import numpy as np
 from scipy.linalg import eigh
@@ -14,14 +14,15 @@ x, weight = 0.5 * (x + 1), 0.5 * weight
 
 
 def hermite():
-    """Values and second derivatives of the four polynomials: deflection and slope of the ends."""
+    """Returns values and second derivatives of the four polynomials, for deflection and slope of the ends."""
     values = [1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2]
     curvatures = [12 * x - 6, 6 * x - 4, 6 - 12 * x, 6 * x - 2]
     return values, curvatures
 
 
 def clamped_mode(k):
-    """Value and second derivative of the mode k = 0, 1, ..; exponentials that grow are written from the far end."""
+    """Returns value and second derivative of the mode k = 0, 1, ..; growing exponentials are written from the far
+    end."""
     # cos b cosh b = 1, divided by cosh b.
     guess = (k + 1.5) * np.pi
     b = brentq(lambda b: np.cos(b) - 1 / np.cosh(b), guess - 0.1, guess + 0.1, xtol=1e-15)
@@ -37,7 +38,7 @@ def errors(boundary, modes, rigid, exact):
     """@param boundary  which of the four freedoms of the ends are kept"""
     values, curvatures = hermite()
     functions = [(values[k], curvatures[k]) for k in boundary] + [clamped_mode(k) for k in range(modes)]
-    # Modes are made alike in size.
+    # Modes are scaled to similar size.
     functions = [(f / np.sqrt(weight @ f**2), c / np.sqrt(weight @ f**2)) for f, c in functions]
     F, C = np.array([f for f, _ in functions]), np.array([c for _, c in functions])
     omega2 = eigh((C * weight) @ C.T, (F * weight) @ F.T, eigvals_only=True)[rigid:]

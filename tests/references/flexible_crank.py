@@ -1,9 +1,9 @@
 """A slider-crank with a flexible rod: deflection of its middle from the line between its ends, and the slider.
 
 Data of the problem "crank" (B. Simeon) of the IVP test set: crank 0.15 m at 150 rad/s, rod 0.3 m of 8 x 8 mm, E = 2e11,
-nu = 0.3, 7870 kg/m^3, slider 0.075552 kg. Geometrically exact rod (shear factor 5/6) by a spectral element, Gauss'
-collocation in time. Either the rod begins straight with the velocities of a rigid one, or as the test set has it, with
-few vibrations along.
+nu = 0.3, 7870 kg/m^3, slider 0.075552 kg. The rod is geometrically exact (shear factor 5/6), by a spectral element and
+Gauss' collocation in time. It begins either straight with the velocities of a rigid rod, or as in the test set, with
+small axial vibrations.
 """
 import numpy as np
 
@@ -42,7 +42,7 @@ class Crank:
         return q, v
 
     def full(self, t, free):
-        """All nodes: the first one goes with the crank, the last one stays on y = 0."""
+        """Returns all nodes: the first one moves with the crank, and the last one stays on y = 0."""
         q = np.zeros((len(free), 3 * self.nodes), free.dtype)
         q[:, self.free] = free
         q[:, 0], q[:, self.nodes] = r * np.cos(speed * t), r * np.sin(speed * t)
@@ -52,7 +52,7 @@ class Crank:
         return (self.rod.forces(self.full(t, free)) / self.mass).reshape(len(free), -1)[:, self.free]
 
     def run(self, start, h=1e-5):
-        """Deflections of the middle at the ends of steps, and the slider's place at the end."""
+        """Returns the deflections of the middle at the ends of steps, and the slider's position at the end."""
         solver = dynamic_rods.Gauss(self.acceleration, h, 1e-4)
         q, v = (f.ravel()[self.free] for f in start)
         found = []
@@ -65,7 +65,7 @@ class Crank:
 
 
 def fill(rows):
-    # Vibrations along the rod, which the first start sets off, keep the number of nodes in view.
+    # Axial vibrations, which the first start excites, determine the number of nodes.
     for name, begin, claimed in (("rigid_start", Crank.rigid_start, 5e-7), ("smooth_start", Crank.smooth_start, 5e-8)):
         (w, place), (other, other_place) = (crank.run(begin(crank)) for crank in (Crank(13), Crank(11)))
         if np.abs(w - other)[1999::2000].max() > claimed or abs(place - other_place) > 2 * claimed:

@@ -2,13 +2,13 @@
 
 A shaft of 1 m turns about z. At its top, 0.05 m from the axis, two arms of 1 m with balls of 5 kg at their ends swing
 in the plane of the shaft. The middle of each arm is connected to a slider on the shaft, 0.05 m from its axis, by a
-stiff spring and damper. Bars of 0.01 x 0.01 m, the slider is a cube of 0.1 m, density 3000 kg/m^3. At the start the
-arms are 30 degrees below the level, the slider at s = 0.5 m, and everything turns with 2 pi rad/s about z; springs are
-free.
+stiff spring and damper. Bars have a section of 0.01 x 0.01 m, the slider is a cube of 0.1 m, and the density is 3000
+kg/m^3. At the start the arms are 30 degrees below the horizontal, the slider is at s = 0.5 m, and everything rotates
+with 2 pi rad/s about z; springs are unstressed.
 
-Coordinates: psi (turn), th (angle of both arms from the downward vertical), s. With r(u) = e + u sin th the distance
-of a point of an arm from the axis, the kinetic energy is psidot^2 Z(th)/2 + thdot^2 A + M sdot^2/2, so that Z psidot
-is constant.
+The coordinates are psi (rotation), th (angle of both arms from the downward vertical) and s. With the distance r(u) = e
++ u sin th of a point of an arm from the axis, the kinetic energy is psidot^2 Z(th)/2 + thdot^2 A + M sdot^2/2, so that
+Z psidot is constant.
 """
 import numpy as np
 
@@ -23,9 +23,9 @@ FIRST = BAR * ARM / 2 + BALL * ARM                    # its first moment [kg m]
 
 
 def turning_inertia(th):
-    """Z and dZ/dth: inertia of both arms, the shaft and the slider about z."""
+    """Returns Z and dZ/dth, where Z is the inertia of both arms, the shaft and the slider about z."""
     s, c = np.sin(th), np.cos(th)
-    # One arm has the sum of m (e + u sin th)^2 of its axis line, and the thickness across it.
+    # The inertia of one arm is the sum of m (e + u sin th)^2 over its axis, plus that of its thickness.
     lines = (BAR + BALL) * OFFSET**2 + 2 * OFFSET * FIRST * s + (BAR * ARM**2 / 3 + BALL * ARM**2) * s**2
     thick = BAR * THIN / 12 * (1 + c**2)
     fixed = BAR * THIN / 6 + CUBE * 0.01 / 6
@@ -34,7 +34,7 @@ def turning_inertia(th):
 
 
 def spring(th, thdot, s, sdot):
-    """Force of one spring (tension positive), and derivatives of its length along th and s."""
+    """Returns the force of one spring (tension positive), and the derivatives of its length by th and s."""
     x, z = 0.5 * ARM * np.sin(th), 1.0 - 0.5 * ARM * np.cos(th) - s
     length = np.hypot(x, z)
     by_th, by_s = (x * 0.5 * ARM * np.cos(th) + z * 0.5 * ARM * np.sin(th)) / length, -z / length

@@ -1,10 +1,11 @@
 """The flying spaghetti: J. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 855; Comput. Methods Appl. Mech. Eng. 66 (1988)
 125.
 
-A free rod of length 10, EA = GA = 1e4, mass 1 and mass moments 10 per length, at rest from A = (6, 0, 0) to B = (0, 8,
-0). T at A rises to its peak at 2.5 s and is zero from 5 s on. In the plane: force T/10 along x, moment -T about z, peak
-80. In space: moment (0, -T/2, -T), peak 200. One spectral element, DOP853 in time. The kinks of T make waves without
-end: errors fall with a power of the number of nodes, and two numbers tell how large they are.
+A free rod of length 10, with EA = GA = 1e4, mass 1 and mass moments 10 per length, is at rest from A = (6, 0, 0) to B =
+(0, 8, 0). The load T at A rises to its peak at 2.5 s and is zero from 5 s on. In the plane it is a force T/10 along x
+and a moment -T about z with the peak 80; in space it is a moment (0, -T/2, -T) with the peak 200. The method is one
+spectral element, with DOP853 in time. The kinks of T excite waves of any length, so that errors decrease only with a
+power of the number of nodes; two numbers of nodes give their size.
 """
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,7 +17,7 @@ R = np.array([[-0.6, -0.8, 0], [0.8, -0.6, 0], [0, 0, 1]])
 
 
 def march(rate, z, peak, times):
-    """States at the times. @param rate  of (T, z)"""
+    """Returns the states at the times. @param rate  of (T, z)"""
     found, start = {}, 0
     for end, thrust in ((2.5, lambda t: peak * t / 2.5), (5, lambda t: peak * (2 - t / 2.5)), (times[-1], lambda t: 0)):
         if end <= start:
@@ -53,7 +54,7 @@ class Plane:
         return [self.rod.element.value(z[0, 0], 5), self.rod.element.value(z[0, 1], 5), 0]
 
     def momentum(self, z):
-        """About the origin."""
+        """The moment is about the origin."""
         p = self.rod.mass * z[1]
         return np.array([0, 0, (z[0, 0] * p[1] - z[0, 1] * p[0] + p[2]).sum()])
 
@@ -77,7 +78,7 @@ class Space:
         return z[:3, node]
 
     def momentum(self, z):
-        """About the origin."""
+        """The moment is about the origin."""
         w, x, v = self.rod.element.weight, z[:3], z[12:15]
         spin = np.einsum("ijn,jn->in", z[3:12].reshape(3, 3, -1), self.rod.J * z[15:])
         return (w * (np.cross(x, self.rod.mass * v, axis=0) + spin)).sum(1)

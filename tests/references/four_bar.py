@@ -1,7 +1,8 @@
 """Four-bar linkages of thin bars of 1 kg/m under gravity.
 
-One of ground 1, crank 0.3, coupler 0.9 and rocker 0.7 m, released with its crank at 60 degrees, in Cartesian
-coordinates; N loops of 1 m by their reduced equation I th'' = G sin(th), I = (N+1)/3 + N, G = g ((N+1)/2 + N).
+The first one has ground 1, crank 0.3, coupler 0.9 and rocker 0.7 m, is released with its crank at 60 degrees, and is
+computed in Cartesian coordinates. N loops of 1 m are computed by their reduced equation I th'' = G sin(th), I = (N+1)/3
++ N, G = g ((N+1)/2 + N).
 """
 import numpy as np
 
@@ -21,7 +22,7 @@ def released(rows):
     linkage_.pin(coupler, [0.45, 0], rocker, [0.35, 0])
     linkage_.pin(rocker, [-0.35, 0], None, [1, 0])
     angle = np.pi / 3
-    # The rocker stands to the upper side of the diagonal.
+    # The rocker is on the upper side of the diagonal.
     B = 0.3 * np.array([np.cos(angle), np.sin(angle)])
     across = np.array([1, 0]) - B
     d = np.linalg.norm(across)

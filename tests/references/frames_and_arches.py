@@ -1,8 +1,8 @@
 """Paths and limit points of Lee's frame, of a deep and of a shallow arch, by shooting: Reissner's rod.
 
 S. Lee, F. Manuel, E. Rossow, J. Eng. Mech. Div. ASCE 94 (1968); D. DaDeppo, R. Schmidt, J. Appl. Mech. 42 (1975) 923.
-P is the load downwards, u and v the displacements of its point along x and down. A path is followed by its own length;
-limit points are where P turns back.
+P is the downward load, u and v are the displacements of its point along x and down. The path is followed by its arc
+length; P has its extrema at limit points.
 """
 import numpy as np
 
@@ -11,9 +11,9 @@ import table
 
 
 class LeesFrame:
-    """Column and beam of 120, EA = 4320, EI = 1440, both ends pinned, load 24 from the corner.
+    """Column and beam have the length 120, EA = 4320, EI = 1440 and pinned ends; the load is 24 from the corner.
 
-    Unknowns: angle and forces at the foot, P.
+    The unknowns are angle and forces at the foot, and P.
     """
     size = np.array([1, 2, 2, 2])
     start = np.array([np.pi / 2, 0, 0, 0])
@@ -37,9 +37,10 @@ class LeesFrame:
 
 
 class DeepArch:
-    """215 degrees of radius 100, EI = 1e6, clamped at the left, hinged at the right, loaded at the top.
+    """The arch has 215 degrees, the radius 100 and EI = 1e6; it is clamped at the left, hinged at the right, and loaded
+    at the top.
 
-    Unknowns: moment and forces at the clamp, P.
+    The unknowns are moment and forces at the clamp, and P.
     """
     size = np.array([2e4, 500, 500, 500])
     start = np.zeros(4)
@@ -66,9 +67,10 @@ class DeepArch:
 
 
 class ShallowArch:
-    """Span 100, rise 5, EA = 1e6, EI = 1e6/12, hinged at both ends, loaded at the crown; its left half, symmetric.
+    """The left half of a symmetric arch with span 100, rise 5, EA = 1e6 and EI = 1e6/12, which is hinged at both ends
+    and loaded at the crown.
 
-    Unknowns: angle at the hinge, horizontal force, P.
+    The unknowns are the angle at the hinge, the horizontal force, and P.
     """
     size = np.array([0.1, 500, 50])
     radius = 252.5
@@ -94,7 +96,7 @@ class ShallowArch:
         return z[0], 5 - z[1]
 
     def stability(self, u):
-        """The determinant of the whole arch, free to go to its side, over that of the symmetric half."""
+        """Returns the determinant of the whole arch, which may move sideways, divided by that of the symmetric half."""
         def whole(w):
             zero = 0 * w[0]
             z = self.half_arch(np.array([zero - 50, zero, w[0], zero]), (w[1], w[2]))
@@ -105,7 +107,7 @@ class ShallowArch:
 
 
 class Curve:
-    """A path, and the points that are sought on it."""
+    """Returns a path, and the requested points on it."""
 
     def __init__(self, model, length, step=0.1):
         self.model = model
@@ -146,7 +148,7 @@ def fill(rows):
             continue
         for k, P in enumerate((0.604018511292, 1.410408115941, 1.738618841387)):
             add_point(rows, f"lee.load_{k + 1}", frame, curve.at_load(P))
-        # Positive displacements: to the right, and down.
+        # Displacements are positive to the right and down.
         for k, (component, displacement) in enumerate(((0, 6.293514103106), (0, 73.653814113660), (0, 82.508173957958),
                                                        (1, 64.479705604899), (1, 90.549538712821))):
             add_point(rows, f"lee.end_{k + 1}", frame, curve.at(component, displacement))

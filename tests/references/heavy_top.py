@@ -1,7 +1,7 @@
 """The heavy top of O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121, by Euler and Poinsot's equations.
 
-15 kg, centre 1 m from the pivot along its y axis, J = diag(0.234375, 0.46875, 0.234375) kg m^2 about the centre,
-Omega(0) = (0, 150, -4.61538) rad/s, gravity 9.81 m/s^2 along -z. Quaternions, by DOP853.
+The top has 15 kg, its centre 1 m from the pivot along its y axis, J = diag(0.234375, 0.46875, 0.234375) kg m^2 about
+the centre, and Omega(0) = (0, 150, -4.61538) rad/s; gravity is 9.81 m/s^2 along -z. DOP853 integrates with quaternions.
 """
 import numpy as np
 

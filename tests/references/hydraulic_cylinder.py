@@ -24,7 +24,8 @@ def edge(x):
 
 
 def lifted(rows):
-    """Single-acting, against the weight, from rest in balance, through a hole of 2 mm from 10 MPa. x, v, p/1e6."""
+    """A single-acting cylinder against the weight, from rest in balance, with a supply of 10 MPa through a hole of 2
+    mm. States are x, v, p/1e6."""
     def rate(_, z):
         x, v, p = z[0], z[1], 1e6 * z[2]
         Q = flow(np.pi / 4 * 0.002**2, 10e6 - p, 10)
@@ -36,7 +37,7 @@ def lifted(rows):
 
 
 def double_acting(command, tank, D_t):
-    """From rest with 6 and 10 MPa. x, v, p_1/1e6, p_2/1e6."""
+    """A double-acting cylinder, from rest with 6 and 10 MPa. States are x, v, p_1/1e6, p_2/1e6."""
     def rate(t, z):
         x, v, p_1, p_2 = z[0], z[1], 1e6 * z[2], 1e6 * z[3]
         area = 5e-6 * edge(command(t))
@@ -55,7 +56,7 @@ def add(rows, name, z, within=1.0):
 
 
 def opened(rows):
-    """The valve opens within 10 ms. Pieces end at the kinks of the command."""
+    """The valve opens within 10 ms. The integration restarts at the kinks of the command."""
     begin = [0, 0, 6, 10]
     pieces = [(0, 1e-5, lambda t: t / 0.01), (1e-5, 0.01, lambda t: t / 0.01), (0.01, 1, lambda t: 1.0)]
     z = np.array(begin, float)
@@ -83,7 +84,7 @@ def stopped(rows):
         pressures = solution.sol(times)[3]
         k = pressures.argmax()
         if a >= 0.2 and 0 < k < len(times) - 1:
-            # The peak is where the rate of the pressure vanishes.
+            # The rate of the pressure is zero at the peak.
             top = brentq(lambda t: rate(t, solution.sol(t))[3], times[k - 1], times[k + 1], xtol=1e-14)
             peaks.append(solution.sol(top)[3])
         z, a = solution.y[:, -1], b
@@ -92,7 +93,8 @@ def stopped(rows):
 
 
 def blocked(rows):
-    """Both chambers closed, 0.1 m/s: the oil's potential gives the turning points, and quadrature the period."""
+    """Both chambers are closed, and the mass starts with 0.1 m/s. The potential of the oil gives the turning points,
+    and quadrature the period."""
     V_1, V_2 = 1e-3, 0.8e-3
 
     def force(x):
@@ -102,7 +104,8 @@ def blocked(rows):
         return 0.01 + 2 / m * quad(force, 0, x, epsabs=1e-16, epsrel=1e-13)[0]
     top, bottom = brentq(speed2, 1e-5, 1e-2, xtol=1e-17), brentq(speed2, -1e-2, -1e-5, xtol=1e-17)
     middle, half = 0.5 * (top + bottom), 0.5 * (top - bottom)
-    # x = middle + half sin(a): the integrand is smooth up to the turning points, where it is left out by rounding.
+    # With x = middle + half sin(a) the integrand is smooth up to the turning points, which are omitted because of
+    # rounding.
     a = (np.arange(400) + 0.5) / 400 * np.pi - np.pi / 2
     period = 2 * np.pi / 400 * sum(half * np.cos(k) / np.sqrt(speed2(middle + half * np.sin(k))) for k in a)
     rows.add("blocked.period", period, 1e-10, "[s]")

@@ -88,14 +88,14 @@ def pendulum_errors(scheme, h):
 
 
 class Top:
-    """Centre and rotation (12 numbers) of the top, whose tip stays at the origin."""
+    """Returns centre and rotation (12 numbers) of the top, whose tip stays at the origin."""
     size, rows, units = 6, 3, 1e3
     m, J = 15, np.array([0.234375, 0.46875, 0.234375])[:, None]
     arm = np.array([0, 1, 0])
 
     def moved(self, q, d):
         x, R = q[:3, None] + d[:3], q[3:].reshape(3, 3)
-        # Rodrigues' formula; angles of a step are neither zero nor large.
+        # Uses Rodrigues' formula, since the angle of a step is neither zero nor large.
         p = d[3:]
         angle = np.sqrt((p * p).sum(0))
         S = np.array([[0 * p[0], -p[2], p[1]], [p[2], 0 * p[0], -p[0]], [-p[1], p[0], 0 * p[0]]])
@@ -107,19 +107,19 @@ class Top:
         return q[:3] - q[3:].reshape(3, 3, -1)[:, 1]
 
     def accelerations(self, q, v, multipliers):
-        """The pivot pulls at the tip by -multipliers."""
+        """The pivot applies the force -multipliers to the tip."""
         R = q[3:].reshape(3, 3, -1)
         force = -multipliers
         own = np.einsum("ijn,in->jn", R, force)
         arm = np.zeros_like(own)
-        arm[1] = -1  # place of the tip relative to the centre
+        arm[1] = -1  # position of the tip relative to the centre
         Omega = v[3:]
         spin = (np.cross(arm, own, axis=0) - np.cross(Omega, self.J * Omega, axis=0)) / self.J
         return np.concatenate([force / self.m - np.array([[0], [0], [9.81]]), spin])
 
 
 def top_run(scheme, h, end):
-    """Errors of x, v, Omega and the multipliers, one row per step, without the start."""
+    """Returns errors of x, v, Omega and the multipliers, one row per step, without the start."""
     start = np.array([1, 0, 0, 0, 0, 150, -4.61538])
     steps = round(end / h)
     exact = motion.integrate(heavy_top.rate, start, h * np.arange(1, steps + 1), rtol=1e-12, agree=1e-8)
@@ -142,7 +142,7 @@ def top_run(scheme, h, end):
 
 
 def share(error, part):
-    """A part of an error, to one digit."""
+    """Returns a part of an error, rounded to one digit."""
     return float(f"{error * part:.0e}")
 
 

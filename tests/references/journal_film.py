@@ -27,14 +27,16 @@ RAIMONDI_BOYD = {1: (1.33, 0.631, 0.264, 0.121, 0.0446, 0.0188), 0.5: (4.31, 2.0
 
 
 def pressure_force(a, d, slenderness, reynolds, parts):
-    """Integrals of p cos s and p sin s over the film on a grid with this number of parts over half of the circumference."""
+    """Returns the integrals of p cos s and p sin s over the film, on a grid with a number of parts over half of the
+    circumference."""
     n, m = (2 * parts if reynolds else parts), parts // 4
     ds, dz = np.pi / parts, slenderness / m
     s = -np.pi / 2 + ds * np.arange(1, n)
     cube = lambda at: (1 - a * np.cos(at) - d * np.sin(at))**3
     after, before, here = cube(s + ds / 2) / ds**2, cube(s - ds / 2) / ds**2, cube(s) / dz**2
     along = sparse.diags([after + before, -after[:-1], -before[1:]], [0, 1, -1])
-    # Half of the length, with symmetry at z = 0: the first row is halved, so that the matrix is symmetric.
+    # The grid covers half of the length, with symmetry at z = 0. The first row is halved, which makes the matrix
+    # symmetric.
     half = np.ones(m)
     half[0] = 0.5
     across = sparse.diags([2 * half, -np.ones(m - 1), -np.ones(m - 1)], [0, 1, -1])
@@ -57,7 +59,8 @@ def pressure_force(a, d, slenderness, reynolds, parts):
 
 
 def force(e, v, slenderness, reynolds=False, parts=96):
-    """Force on the bush in mu L R^3/c^2 times 1/s, of the displacement e and velocity v [1/s] in clearances of a journal that turns with 1/s."""
+    """Returns the force on the bush in mu L R^3/c^2 times 1/s, from the displacement e and velocity v [1/s] in
+    clearances of a journal that rotates with 1/s."""
     B = 2 * np.asarray(v) + np.array([e[1], -e[0]])
     size = np.hypot(*B)
     u = B / size
@@ -68,7 +71,7 @@ def force(e, v, slenderness, reynolds=False, parts=96):
 
 
 def steady(eps, slenderness, reynolds, parts=96):
-    """Sommerfeld's number P psi^2/(mu omega) and the angle between load and eccentricity [degrees]."""
+    """Returns Sommerfeld's number P psi^2/(mu omega), and the angle between load and eccentricity [degrees]."""
     N = force((eps, 0), (0, 0), slenderness, reynolds, parts)
     return np.hypot(*N) / 2, np.degrees(np.arctan2(-N[1], N[0]))
 

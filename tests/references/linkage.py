@@ -29,11 +29,12 @@ class Linkage:
         return len(self.mass) - 1
 
     def pin(self, first, at_first, second, at_second):
-        """Two points coincide, each in the axes of its body from the centre of mass. Body None is the ground."""
+        """Makes two points coincide, each given in the axes of its body from the centre of mass. Body None is the
+        ground."""
         self.pins.append((first, np.asarray(at_first, float), second, np.asarray(at_second, float)))
 
     def guide(self, body):
-        """The centre of a body stays on y = 0, and the body does not turn."""
+        """Keeps the centre of a body on y = 0, and its angle."""
         self.guides.append(body)
 
     def point(self, z, body, s):
@@ -82,7 +83,7 @@ class Linkage:
         return F
 
     def solve(self, z, v):
-        """Accelerations and multipliers."""
+        """Returns accelerations and multipliers."""
         M = np.diag(np.concatenate(self.mass))
         G, c = self.constraints(z, v)
         n, rows = len(z), len(c)
@@ -91,7 +92,8 @@ class Linkage:
         return solution[:n], solution[n:]
 
     def assembled(self, guess, keep):
-        """Positions near a guess in which all joints are closed. @param keep  numbers of coordinates that stay"""
+        """Returns positions near a guess in which all joints are closed. @param keep  numbers of coordinates that are
+        not changed"""
         free = [k for k in range(len(guess)) if k not in keep]
         z = np.array(guess, float)
 
@@ -105,14 +107,15 @@ class Linkage:
         return z
 
     def velocities(self, z, coordinate, rate):
-        """Rates of all coordinates when one is given."""
+        """Returns the rates of all coordinates for a given one."""
         G, _ = self.constraints(z, np.zeros(len(z)))
         given = np.zeros(len(z))
         given[coordinate] = 1
         return np.linalg.solve(np.vstack([G, given]), np.concatenate([np.zeros(len(G)), [rate]]))
 
     def move(self, z, v, times, closed=1e-10, **options):
-        """Positions and rates at the times. The joints stay closed to `closed` by the integration alone."""
+        """Returns positions and rates at the times. The integration alone must keep the joints closed within
+        `closed`."""
         n = len(z)
         states = motion.integrate(lambda _, y: np.concatenate([y[n:], self.solve(y[:n], y[n:])[0]]),
                                   np.concatenate([z, v]), times, **options)

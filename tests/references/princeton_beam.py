@@ -1,10 +1,10 @@
 """The beam of the Princeton experiments (E. Dowell, J. Traybar, AMS Report 1194, Princeton University (1975)), by
 shooting.
 
-A cantilever of aluminium along x, 0.508 m, section 12.377 x 3.2024 mm, E = 71.7 GPa, nu = 0.31, dead load downwards
-(-z) at the tip. At the angle 0 the wide side of the section is vertical; at another one the section is turned about x
-by it. Data as in O. Bauchau et al., Multibody Syst. Dyn. 37 (2016) 29. Torsion by Saint-Venant's series, shear factor
-5/6.
+A cantilever of aluminium along x has 0.508 m, a section of 12.377 x 3.2024 mm, E = 71.7 GPa, nu = 0.31, and a downward
+dead load (-z) at the tip. The wide side of the section is vertical at the angle 0; otherwise the section is rotated
+about x by the angle. Data as in O. Bauchau et al., Multibody Syst. Dyn. 37 (2016) 29. Torsion by Saint-Venant's series,
+shear factor 5/6.
 """
 import numpy as np
 
@@ -17,7 +17,8 @@ LOADS, ANGLES = (4.448, 8.896, 13.345), (15, 30, 45, 60, 75)
 
 
 def tip(angle, loads):
-    """Places of the tip under loads that ascend, the last one returned. The section's y axis is along its thin side."""
+    """Returns the position of the tip under the last of ascending loads. The section's y axis is along its thin
+    side."""
     A, c, s = WIDE * THIN, np.cos(np.radians(angle)), np.sin(np.radians(angle))
     rod = rods.Space(G * rods.saint_venant(WIDE, THIN), E * A * WIDE**2 / 12, E * A * THIN**2 / 12, E * A,
                      5 / 6 * G * A, 5 / 6 * G * A)

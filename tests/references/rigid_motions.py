@@ -1,8 +1,9 @@
 """The exponential of a rigid motion, and one beam element of constant strain: energy, forces, trace of its stiffness.
 
-The element's strains are log(A^-1 B) - d_0, of unit length and with the stiffness diag(1 .. 6); its forces are the
-derivatives of its energy along increments of the nodes, inertial ones of positions and, in the nodes' axes, of
-rotations. The trace is the sum of second derivatives along the same. Closed forms of logarithms, 60 digits.
+The element has unit length, the strains log(A^-1 B) - d_0 and the stiffness diag(1 .. 6). Its forces are the
+derivatives of its energy by increments of the nodes: inertial ones for positions, and those in the nodes' axes for
+rotations. The trace is the sum of second derivatives by the same increments. Logarithms are closed forms with 60
+digits.
 """
 import mpmath
 from mpmath import matrix, mpf
@@ -18,7 +19,7 @@ def skew(v):
 
 
 def rotation(v):
-    """exp of skew(v), by its series."""
+    """Returns exp(skew(v)) by its series."""
     return mpmath.expm(skew(v))
 
 
@@ -32,7 +33,7 @@ def exponential(d):
 
 
 def logarithm(R, x):
-    """Logarithm of a motion whose angle lies between 0 and pi."""
+    """Returns the logarithm of a motion whose angle is between 0 and pi."""
     sine = mpmath.sqrt(sum(((R[j, i] - R[i, j]) / 2)**2 for i, j in ((0, 1), (0, 2), (1, 2))))
     angle = mpmath.atan2(sine, (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2)
     psi = [angle / sine * (R[k[0], k[1]] - R[k[1], k[0]]) / 2 for k in ((2, 1), (0, 2), (1, 0))]
@@ -44,7 +45,7 @@ def logarithm(R, x):
 
 
 def energy(moves):
-    """Energy of nodes that are moved by twelve increments."""
+    """Returns the energy if the nodes are moved by twelve increments."""
     R_B, x_B = exponential(D)
     R_A = rotation(moves[3:6])
     x_A = matrix(moves[:3])
@@ -64,7 +65,7 @@ def fill(rows):
         before, at, after = (energy([s if j == k else mpf(0) for j in range(12)]) for s in (-h, mpf(0), h))
         force.append((after - before) / (2 * h))
         trace += (after - 2 * at + before) / h**2
-    # The second node's force in its own axes.
+    # Returns the second node's force in its own axes.
     force[6:9] = list(R.T * matrix(force[6:9]))
     for k, name in enumerate(("first.force", "first.moment", "second.force", "second.moment")):
         rows.add_vector(f"element.{name}", force[3 * k:3 * k + 3], 1e-13, "on the element at rest")

@@ -3,7 +3,7 @@
 Strains are linear (E. Reissner, J. Appl. Math. Phys. 23 (1972) 795; J. C. Simo, Comput. Methods Appl. Mech. Eng. 49
 (1985) 55): with the section's rotation R, force n and moment m on it in inertial components, s the reference's length,
     x' = R (e_1 + C_n^-1 R^T n),   R' = R skew(K_0 + C_m^-1 R^T m),   m' = -x' x n,   n' = 0.
-Formulas are analytic: derivatives follow from an imaginary step and are exact. Arrays have one column per solution.
+Formulas are analytic, so that derivatives by an imaginary step are exact. Arrays have one column per solution.
 """
 import numpy as np
 from scipy.integrate import DOP853
@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 
 def advance(rate, z, length, steps):
-    """z over a length, by steps of the method of order 8 of Dormand and Prince. @param rate  dz/ds of z"""
+    """Integrates z over a length by steps of Dormand and Prince's method of order 8. @param rate  dz/ds of z"""
     h, A, B = length / steps, DOP853.A, DOP853.B
     k = np.empty((DOP853.n_stages, z.size), complex if np.iscomplexobj(z) else float)
     for _ in range(steps):
@@ -22,7 +22,7 @@ def advance(rate, z, length, steps):
 
 
 def with_jacobian(function, u):
-    """Values and derivatives of a function that takes columns."""
+    """Returns values and derivatives of a function of columns."""
     e = 1e-40
     columns = np.asarray(u, float)[:, None] + np.hstack([np.zeros((len(u), 1)), 1j * e * np.eye(len(u))])
     values = function(columns)
@@ -36,13 +36,13 @@ def newton(function, u, size=1.0, iterations=40):
         r, J = with_jacobian(function, u)
         step = np.linalg.solve(J, -r)
         u += step
-        if np.abs(step / size).max() < 1e-9:  # the next one would be the square of it
+        if np.abs(step / size).max() < 1e-9:  # the next correction would be its square
             return u
     raise ArithmeticError("Newton's method does not converge")
 
 
 class Plane:
-    """A rod in the plane: x, y, angle, moment along it. @param EA,GA  infinite: none of it"""
+    """A rod in the plane with x, y, angle and moment along it. @param EA,GA  infinite: no such strain"""
 
     def __init__(self, EI, EA=np.inf, GA=np.inf):
         self.EI, self.EA, self.GA = EI, EA, GA
@@ -60,13 +60,13 @@ class Plane:
 
 
 class Path:
-    """The curve r(u) = 0 of one equation fewer than unknowns, followed by its arc length in units of `size`.
+    """Follows the curve r(u) = 0, which has one equation fewer than unknowns, by its arc length in units of `size`.
 
     Points are [u, scaled tangent, length to the next].
     """
 
     def __init__(self, function, size, start, towards, length, step):
-        """@param towards  which unknown grows at first"""
+        """@param towards  unknown that grows at first"""
         self.function, self.size = function, np.asarray(size, float)
         direction = np.zeros(len(self.size))
         direction[towards] = 1
@@ -75,7 +75,7 @@ class Path:
         while gone < length:
             last = self.points[-1]
             try:
-                with np.errstate(all="ignore"):  # the step may be too long
+                with np.errstate(all="ignore"):  # the step may have been too long
                     u = self.at(last, step, iterations=6)
             except ArithmeticError:
                 step /= 3
@@ -86,7 +86,7 @@ class Path:
             step = min(2 * step, longest)
 
     def at(self, point, s, iterations=20):
-        """The point of the curve on the plane across the tangent at the length s."""
+        """Returns the point of the curve in the plane normal to the tangent at the length s."""
         u, tangent, _ = point
         guess = u + s * tangent * self.size
 
@@ -100,7 +100,7 @@ class Path:
         return t if t @ towards > 0 else -t
 
     def zeros(self, value):
-        """All points where value(u, tangent) changes its sign."""
+        """Returns all points at which value(u, tangent) changes its sign."""
         found, values = [], [value(u, t) for u, t, _ in self.points]
 
         def at(point, s):
@@ -120,7 +120,7 @@ def cross(a, b):
 
 
 class Space:
-    """A rod in space: x, the columns of R, and the moment along it, one above the other: 15 rows."""
+    """A rod in space. Its 15 rows are x, the columns of R, and the moment along it."""
 
     def __init__(self, GJ, EI_y, EI_z, EA=np.inf, GA_y=np.inf, GA_z=np.inf):
         self.bending = np.array([GJ, EI_y, EI_z])
@@ -131,7 +131,7 @@ class Space:
         K_0 = np.asarray(curvature, float)[:, None]
 
         def rate(z):
-            R, m = z[3:12].reshape(3, 3, -1), z[12:]  # R[k]: the k-th axis
+            R, m = z[3:12].reshape(3, 3, -1), z[12:]  # R[k] is the k-th axis
             n = force + 0 * m
             along = [1 + (R[0] * n).sum(0) / self.stretch[0], (R[1] * n).sum(0) / self.stretch[1],
                      (R[2] * n).sum(0) / self.stretch[2]]
@@ -143,7 +143,7 @@ class Space:
 
 
 def start(x, R, m):
-    """The beginning of a rod in space: position and rotation, moments in columns."""
+    """Returns the start of a rod in space: position and rotation, with moments in columns."""
     m = np.asarray(m)
     columns = m.shape[1]
     head = np.concatenate([np.asarray(x, float), np.asarray(R, float).T.ravel()])
@@ -151,14 +151,14 @@ def start(x, R, m):
 
 
 def turned(z, Q):
-    """At a corner, the axes of the rod that follows are those of the rod that ends, times Q."""
+    """Rotates the state at a corner: the axes of the next rod are those of the previous one times Q."""
     R = z[3:12].reshape(3, 3, -1)
     after = [sum(Q[i, k] * R[i] for i in range(3)) for k in range(3)]
     return np.concatenate([z[:3], *after, z[12:]])
 
 
 def saint_venant(width, height):
-    """Torsion constant of a rectangle (S. Timoshenko, J. Goodier, Theory of Elasticity, art. 109)."""
+    """Returns the torsion constant of a rectangle (S. Timoshenko, J. Goodier, Theory of Elasticity, art. 109)."""
     a, b = sorted((width, height))
     series = sum(np.tanh(n * np.pi * b / (2 * a)) / n**5 for n in range(1, 400, 2))
     return b * a**3 / 3 * (1 - 192 * a / (np.pi**5 * b) * series)

@@ -1,7 +1,7 @@
 """A thin disk that rolls on a plane: 1 kg, radius 0.5 m, 110 degrees of lean, 4 rad/s about its own axis.
 
-Newton and Euler's equations in inertial axes, the contact force eliminated by rolling, v = omega x a u, where u points
-from the contact to the centre. The centre is integrated along.
+The equations are Newton's and Euler's in inertial axes. Rolling, v = omega x a u, eliminates the contact force; u
+points from the contact to the centre. The centre is integrated as well.
 """
 import numpy as np
 
@@ -14,7 +14,7 @@ up = np.array([0, 0, 1])
 
 
 def rim(R):
-    """u and du/dt as a function of the axis's rate."""
+    """Returns u, and du/dt as a function of the axis's rate."""
     n = R[:, 2]
     p = up - n[2] * n
     length = np.linalg.norm(p)
@@ -27,7 +27,7 @@ def rim(R):
 
 
 def forces(q, Omega):
-    """The force of the plane on the disk, and the angular acceleration in its axes."""
+    """Returns the force of the plane on the disk, and the angular acceleration in its axes."""
     R = motion.rotation(q)
     omega = R @ Omega
     u, u_rate = rim(R)

@@ -1,9 +1,10 @@
-"""Frequencies of a cantilever that turns about its hub, across the plane of rotation: mu = omega sqrt(m L^4/EI).
+"""Out-of-plane frequencies of a rotating cantilever: mu = omega sqrt(m L^4/EI).
 
 A. Wright, C. Smith, R. Thresher, J. Wang, J. Appl. Mech. 49 (1982) 197: Bernoulli's beam without rotary inertia,
     w'''' - eta^2 (T w')' = mu^2 w,   T = (1 - x^2)/2 + hub (1 - x),
-clamped at 0, free at 1. Its solutions are power series about the root: two of them satisfy the clamping, and the
-determinant of bending moment and shear at the tip vanishes at a frequency. 60 digits, since terms of series cancel.
+clamped at 0, free at 1. Its solutions are power series about the root. Two of them satisfy the clamping, and the
+determinant of bending moment and shear at the tip is zero at a frequency. The computation has 60 digits, since terms of
+the series cancel.
 """
 import mpmath
 from mpmath import mpf
@@ -12,13 +13,13 @@ import table
 
 
 def solution(eta2, hub, mu2, second, third):
-    """Values at the tip of w'' and w''' of the solution that begins with w'' and w'''."""
+    """Returns w'' and w''' at the tip of the solution that begins with given w'' and w'''."""
     a = [mpf(0), mpf(0), second / mpf(2), third / mpf(6)]
-    # (T w')' with T = t_0 + t_1 x + t_2 x^2.
+    # The term is (T w')' with T = t_0 + t_1 x + t_2 x^2.
     t = [mpf(1) / 2 + hub, -hub, -mpf(1) / 2]
     n = 0
     while n < 60 or abs(a[-1]) + abs(a[-2]) > mpf(10)**-50:
-        # Coefficient of x^n: (T w')' = (n + 1) sum_k t_k (n + 2 - k) a_(n + 2 - k).
+        # The coefficient of x^n in (T w')' is (n + 1) sum_k t_k (n + 2 - k) a_(n + 2 - k).
         tension = (n + 1) * sum(t[k] * (n + 2 - k) * a[n + 2 - k] for k in range(3) if n + 2 - k > 0)
         a.append((mu2 * a[n] + eta2 * tension) / ((n + 4) * (n + 3) * (n + 2) * (n + 1)))
         n += 1

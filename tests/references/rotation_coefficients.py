@@ -1,8 +1,8 @@
 """Coefficients of the exponential of rotations, of its tangent, and of their derivatives, from closed forms.
 
 With x = phi^2: a1 = sin(phi)/phi, a2 = (1 - cos phi)/x, a3 = (phi - sin phi)/phi^3, c1 = 2 da2/dx, c2 = 2 da3/dx,
-d1 = 2 dc1/dx, d2 = 2 dc2/dx, b = (1 - phi/2 cot(phi/2))/x, bp = 2 db/dx, bpp = 2 dbp/dx. 2 d/dx = d/dphi / phi.
-Formulas cancel 1/phi to the 7th power where angles are small: 250 digits.
+d1 = 2 dc1/dx, d2 = 2 dc2/dx, b = (1 - phi/2 cot(phi/2))/x, bp = 2 db/dx, bpp = 2 dbp/dx. 2 d/dx = d/dphi / phi. Small
+angles cancel digits by 1/phi to the 7th power, so that the computation has 250 digits.
 """
 import mpmath
 from mpmath import mpf
@@ -17,7 +17,7 @@ ANGLES = ["1e-12", "1e-8", "1e-4", "1e-3", "0.1", "0.5", "1", "1.5", "2", "2.5",
 def coefficients(phi):
     x, sin, cos = phi * phi, mpmath.sin(phi), mpmath.cos(phi)
     a1, a2, a3 = sin / phi, (1 - cos) / x, (phi - sin) / phi**3
-    # d/dphi of a2 and a3 over phi, and once more.
+    # These are d/dphi of a2 and a3 over phi, and the same again.
     c1 = (phi * sin - 2 * (1 - cos)) / phi**4
     c2 = (phi * (1 - cos) - 3 * (phi - sin)) / phi**5
     d1 = (phi * (phi * cos - sin) - 4 * (phi * sin - 2 * (1 - cos))) / phi**6
@@ -30,7 +30,7 @@ def coefficients(phi):
     g2 = -csc2 / 2 + half * csc2 * cot / 2
     b = (1 - g) / x
     bp = (-g1 * phi - 2 * (1 - g)) / phi**4
-    # d/dphi of the numerator: -g2 phi - g1 + 2 g1.
+    # d/dphi of the numerator is -g2 phi - g1 + 2 g1.
     bpp = ((-g2 * phi + g1) * phi - 4 * (-g1 * phi - 2 * (1 - g))) / phi**6
     return [a1, a2, a3, c1, c2, d1, d2, b, bp, bpp]
 
@@ -38,10 +38,10 @@ def coefficients(phi):
 def fill(rows):
     mpmath.mp.dps = 250
     for angle in ANGLES:
-        # The angle that a double holds, as the test has it.
+        # The angle is rounded to a double, as in the test.
         phi = mpf(float(angle))
         values = coefficients(phi)
-        # Derivatives are those of the functions, by a difference that 250 digits allow.
+        # The derivatives are compared with differences of the functions, which 250 digits allow.
         e = mpf(10)**-60
         before, after = coefficients(phi - e * phi), coefficients(phi + e * phi)
         for k, (of, is_) in enumerate(((1, 3), (2, 4), (3, 5), (4, 6), (7, 8), (8, 9))):

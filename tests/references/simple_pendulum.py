@@ -1,6 +1,7 @@
-"""A pendulum of 1 kg and 1 m that is released level, gravity 9.81 m/s^2: Jacobi's elliptic functions with 30 digits.
+"""A pendulum of 1 kg and 1 m that is released from the horizontal, with gravity 9.81 m/s^2, by Jacobi's elliptic
+functions with 30 digits: sin(angle/2) = k sn(K - w t), k^2 = 1/2.
 
-sin(angle/2) = k sn(K - w t), k^2 = 1/2, the angle counted from below, positive where it begins.
+The angle is measured from the lowest position and positive at the start.
 """
 import mpmath
 from mpmath import mpf, sqrt
@@ -20,7 +21,7 @@ def fill(rows):
         angle = 2 * mpmath.asin(half)
         return -mpmath.sin(angle), -mpmath.cos(angle)
 
-    # angle'' = -g sin(angle), by x of the closed form: cos(angle) angle' = -xdot with angle'^2 = 2 g cos(angle).
+    # The closed form satisfies angle'' = -g sin(angle), since cos(angle) angle' = -xdot with angle'^2 = 2 g cos(angle).
     t = mpf("0.3")
     x, y = place(t)
     if abs(mpmath.diff(lambda s: place(s)[0], t)**2 - 2 * g * (-y) * y * y) > mpf("1e-12"):

@@ -1,7 +1,7 @@
 """A rigid slider-crank: crank 0.15 m, rod 0.3 m, data of the problem "crank" (B. Simeon) of the IVP test set.
 
-Cartesian coordinates of crank, rod and slider. Torque at a constant speed by the multiplier of a held speed; free
-motions by DOP853.
+It uses Cartesian coordinates of crank, rod and slider. The multiplier of a constant speed gives the torque; DOP853
+integrates free motions.
 """
 import numpy as np
 
@@ -14,7 +14,7 @@ def mechanism(gravity, centre):
     link = linkage.Linkage(gravity)
     crank = link.body(0.36, 0.002727 - 0.36 * centre**2)
     rod = link.body(0.151104, 0.00113328)
-    slider = link.body(0.075552, 1.0)  # it does not turn
+    slider = link.body(0.075552, 1.0)  # the slider does not rotate
     link.pin(None, [0, 0], crank, [-centre, 0])
     link.pin(crank, [0.15 - centre, 0], rod, [-0.15, 0])
     link.pin(rod, [0.15, 0], slider, [0, 0])
@@ -23,11 +23,11 @@ def mechanism(gravity, centre):
 
 
 def placed(link, angle, centre):
-    """Positions of a crank at an angle, the slider on the far side."""
+    """Returns the positions for an angle of the crank, with the slider on the far side."""
     tilt = -np.arcsin(0.5 * np.sin(angle))
     pin, half = linkage.turned(angle, [0.15, 0]), linkage.turned(tilt, [0.15, 0])
     z = np.array([*linkage.turned(angle, [centre, 0]), angle, *(pin + half), tilt, *(pin + 2 * half), 0])
-    # The guide does not let the slider turn, and the pins hold the rest: one coordinate is free.
+    # The guide holds the angle of the slider, and the pins hold other coordinates: one coordinate is free.
     return link.assembled(z, keep=[2])
 
 

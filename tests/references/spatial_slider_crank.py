@@ -1,9 +1,10 @@
-"""The spatial rigid slider-crank of the IFToMM library: one coordinate, the angle th of the crank.
+"""The spatial rigid slider-crank of the IFToMM library, whose only coordinate is the angle th of the crank.
 
-Crank of 0.08 m about x at A = (0, 0.1, 0.12) m, 0.12 kg; rod of 0.3 m, 0.5 kg, on a ball at the crank and a universal
-joint at the slider, whose arms are x and x cross rod; slider of 2 kg along x; gravity along -z. From th = 0 (upwards)
-with 6 rad/s. Kinetic energy M(th) th'^2/2, potential V(th): M th'' = -M' th'^2/2 - V', by DOP853; M', V' by complex
-steps. Data: library of computational benchmark problems, as restated by the Exudyn examples.
+The crank has 0.08 m and 0.12 kg and rotates about x at A = (0, 0.1, 0.12) m. The rod has 0.3 m and 0.5 kg, a spherical
+joint at the crank and a universal joint at the slider, whose arms are x and x cross rod. The slider of 2 kg moves along
+x; gravity is along -z. The motion starts from th = 0 (upwards) with 6 rad/s. Kinetic energy M(th) th'^2/2, potential
+V(th): M th'' = -M' th'^2/2 - V', by DOP853; M', V' by complex steps. Data: library of computational benchmark problems,
+as restated by the Exudyn examples.
 """
 import numpy as np
 
@@ -16,7 +17,7 @@ J_CRANK, J_AXIAL, J_ACROSS = 1e-4 + M_CRANK * (CRANK / 2)**2, 4e-4, 4e-3
 
 
 def slider(th):
-    """Place of the slider along x [m]."""
+    """Returns the position of the slider along x [m]."""
     B = ball(th)
     return np.sqrt(ROD**2 - B[1]**2 - B[2]**2)
 
@@ -26,12 +27,13 @@ def ball(th):
 
 
 def inertia(th):
-    """M(th) [kg m^2]."""
+    """Returns M(th) [kg m^2]."""
     B, B_th = ball(th), CRANK * np.array([0, -np.cos(th), -np.sin(th)])
     x = slider(th)
     C_th = np.array([-(B[1] * B_th[1] + B[2] * B_th[2]) / x, 0, 0])
     r, r_th = (np.array([x, 0, 0]) - B) / ROD, (C_th - B_th) / ROD
-    turning = (r[1] * r_th[2] - r[2] * r_th[1]) / (r[1]**2 + r[2]**2)  # about x; times r_x it is the spin about the rod
+    # The rate about x times r_x is the spin about the rod.
+    turning = (r[1] * r_th[2] - r[2] * r_th[1]) / (r[1]**2 + r[2]**2)
     middle = 0.5 * (B_th + C_th)
     return (J_CRANK + M_SLIDER * C_th[0]**2 + M_ROD * (middle @ middle) + J_ACROSS * (r_th @ r_th)
             + J_AXIAL * (turning * r[0])**2)

@@ -1,9 +1,9 @@
-"""Flexible arms that are spun up about their roots: tip behind the line of the root.
+"""Flexible arms that are spun up about their roots: deflection of the tip relative to the line of the root.
 
 J. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 855; S.-C. Wu, E. Haug, Int. J. Numer. Methods Eng. 26 (1988) 2211. The
-root turns by psi = Om/Ts (t^2/2 + (Ts/2 pi)^2 (cos(2 pi t/Ts) - 1)) up to Ts = 15 s, then at Om. Geometrically exact
-rods by a spectral element in axes that turn with the root, Gauss' collocation in time; and the linear beam with the
-tension m Om^2 (L^2 - x^2)/2 of the turning root, by Ritz's method.
+root rotates by psi = Om/Ts (t^2/2 + (Ts/2 pi)^2 (cos(2 pi t/Ts) - 1)) up to Ts = 15 s, then at the rate Om. One model
+is a geometrically exact rod by a spectral element in axes that rotate with the root, with Gauss' collocation in time.
+The other one is the linear beam with the tension m Om^2 (L^2 - x^2)/2 of rotation, by Ritz's method.
 """
 import numpy as np
 from numpy.polynomial import Legendre, Polynomial
@@ -23,19 +23,19 @@ class Arm:
         self.extension = np.tan(np.sqrt(m / EA) * Om * L) / (np.sqrt(m / EA) * Om) - L
 
     def turn(self, t):
-        """Rate and acceleration of the root."""
+        """Returns rate and acceleration of the root."""
         w = 2 * np.pi / Ts
         return (self.Om / Ts * np.where(t < Ts, t - np.sin(w * t) / w, Ts),
                 self.Om / Ts * np.where(t < Ts, 1 - np.cos(w * t), 0))
 
     def full(self, free):
-        """All nodes: the first one stays in the axes of the root."""
+        """Returns all nodes: the first one is fixed in the axes of the root."""
         q = np.zeros((len(free), *self.rest.shape), free.dtype)
         q[..., 1:] = free.reshape(len(free), 3, -1)
         return q
 
     def acceleration(self, t, free, rates):
-        """Relative to the turning axes."""
+        """Returns accelerations relative to the rotating axes."""
         a = (self.rod.forces(self.full(free)) / self.rod.mass)[..., 1:]
         q, v = free.reshape(a.shape), rates.reshape(a.shape)
         w, wdot = (f[:, None] for f in self.turn(t))
@@ -45,7 +45,7 @@ class Arm:
         return a.reshape(free.shape)
 
     def run(self, end, h=0.01):
-        """Tip's deflection at the ends of steps."""
+        """Returns the deflections of the tip at the ends of steps."""
         solver = dynamic_rods.Gauss(self.acceleration, h, 1e-8)
         q = self.rest[:, 1:].ravel()
         v = 0 * q
@@ -58,7 +58,7 @@ class Arm:
 
 
 def linear(arm, end, h=0.01, count=8):
-    """Tip of the linear beam with tension at the ends of steps."""
+    """Returns the deflections of the tip of the linear beam with tension at the ends of steps."""
     x, weight = np.polynomial.legendre.leggauss(40)
     x, weight = 0.5 * arm.L * (x + 1), 0.5 * arm.L * weight
     clamped = Polynomial([0, 0, 1 / arm.L**2])
@@ -67,7 +67,7 @@ def linear(arm, end, h=0.01, count=8):
     m, EI = arm.rod.mass[0].sum() / arm.L, arm.rod.EI
     M = m * (w * weight) @ w.T
     K = EI * (curvature * weight) @ curvature.T
-    # Per square of the rate: the tension, and the centrifugal force on the deflection.
+    # This is the stiffness per squared rate, from the tension and from the centrifugal force on the deflection.
     G = m * (slope * weight * (arm.L**2 - x**2) / 2) @ slope.T - M
     inverse, pushed = np.linalg.inv(M), m * w @ (weight * x)
 
@@ -85,7 +85,7 @@ def linear(arm, end, h=0.01, count=8):
 
 
 def lowest(times, values):
-    """By a polynomial through eleven points around the lowest."""
+    """The minimum is that of a polynomial through eleven points around the lowest one."""
     k = values.argmin()
     near = slice(k - 5, k + 6)
     fine = np.linspace(times[k - 1], times[k + 1], 20001)

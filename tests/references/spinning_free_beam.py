@@ -1,9 +1,9 @@
-"""A free beam that spins about an axis across it: how its bending frequencies grow with the spin.
+"""A free beam that spins about a transverse axis: growth of its bending frequencies with the spin.
 
-Length and mass 1, EA = 1e5, EI = 1 in the plane of spin and 1.3 across it. The tension T = Om^2 (1/4 - s^2)/2, s from
-the middle, stretches by a = 1 + T/EA and stiffens: the slope is w'/a, a deflection w has the energy EI (w'/a)'^2/2 +
-T w'^2/(2 a) per length, and omega^2 is less by Om^2 in the plane. Ritz's method with Legendre's polynomials, which
-satisfies the free ends by itself. (omega^2(Om) - omega^2(0))/Om^2 at Om = 4.
+Length and mass are 1, EA = 1e5, EI = 1 in the plane of spin and 1.3 across it. The tension T = Om^2 (1/4 - s^2)/2, with
+s from the middle, stretches the beam by a = 1 + T/EA and stiffens it: the slope is w'/a, a deflection w has the energy
+EI (w'/a)'^2/2 + T w'^2/(2 a) per length, and omega^2 is smaller by Om^2 in the plane. Ritz's method with Legendre's
+polynomials, which satisfies the free ends by itself. (omega^2(Om) - omega^2(0))/Om^2 at Om = 4.
 """
 import numpy as np
 from numpy.polynomial import Legendre
@@ -13,7 +13,7 @@ import table
 
 
 def frequencies2(EI, Om, in_plane, count=20):
-    """Squares of the first two elastic frequencies."""
+    """Returns the squares of the first two elastic frequencies."""
     x, weight = np.polynomial.legendre.leggauss(60)
     x, weight = 0.5 * x, 0.5 * weight
     basis = [Legendre.basis(k, domain=[-0.5, 0.5]) * np.sqrt(2 * k + 1) for k in range(count)]

@@ -1,7 +1,7 @@
 """Andrews' squeezing mechanism: seven bodies in a plane, driven by 0.033 N m from rest.
 
-Data: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.7. Cartesian coordinates of
-the seven bodies, by DOP853; angles as in the source.
+Data: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.7. DOP853 integrates in
+Cartesian coordinates of the seven bodies; angles are those of the source.
 """
 import numpy as np
 
@@ -17,7 +17,7 @@ def mechanism():
     link = linkage.Linkage()
     quarter = np.pi / 2
     s = START
-    # Angle of each body's x axis, mass, inertia about the centre, centre of mass from the joint that it turns about.
+    # Angle of each body's x axis, mass, inertia about the centre, centre of mass from its joint.
     bodies = [(s["beta"], 0.04325, 2.194e-6, [0.00092, 0]),
               (s["beta"] + s["theta"] + np.pi, 0.00365, 4.410e-7, [0.0115, 0]),
               (s["gamma"] - quarter, 0.02373, 5.255e-6, [0.01874, 0.01043]),
@@ -37,7 +37,7 @@ def mechanism():
     pin(None, O, 0, [0, 0])
     pin(0, [0.007, 0], 1, [0, 0])
     pin(None, B, 2, [0, 0])
-    # The bar's end F lies in three bodies.
+    # Point F at the end of the bar belongs to three bodies.
     pin(1, [0.028, 0], 2, [0.035, 0])
     pin(1, [0.028, 0], 3, [0.02, 0])
     pin(1, [0.028, 0], 5, [0.02, 0])
@@ -48,7 +48,7 @@ def mechanism():
     link.torques = {0: 0.033}
     link.spring = (np.array(C), 2, np.array([0.018, 0.02]) - centres[2], 4530, 0.07785)
 
-    # Places of the joints that the bodies turn about.
+    # Positions of the joints of the bodies.
     P = linkage.turned(s["beta"], [0.007, 0])
     G = A + linkage.turned(s["delta"], [0.04, 0])
     H = A + linkage.turned(s["epsilon"] - quarter, [0.04, 0])

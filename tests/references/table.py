@@ -1,6 +1,6 @@
 """Tables of reference values: a script of this folder computes them, and a test reads them by name.
 
-A row is `name,value,within,meaning`: `within` is the largest amount by which the value may be wrong, in its own unit.
+A row is `name,value,within,meaning`; `within` is the largest possible error of the value, in its unit.
 """
 import argparse
 import csv
@@ -18,7 +18,7 @@ class Table:
         self.rows = {}
 
     def add(self, name, value, within, meaning=""):
-        """Adds one number. The meaning names its unit, and has no comma."""
+        """Adds one number. The meaning names its unit and has no comma."""
         value, within = float(value), float(within)
         if name in self.rows or "," in name + meaning:
             raise ValueError(f"the row '{name}' stands twice, or has a comma")
@@ -27,12 +27,12 @@ class Table:
         self.rows[name] = (value, within, meaning)
 
     def add_vector(self, name, values, within, meaning="", components="xyz"):
-        """Adds `name.x` and so on: one row per component."""
+        """Adds `name.x` and so on, one row per component."""
         for component, value in zip(components, values, strict=True):
             self.add(f"{name}.{component}", value, within, meaning)
 
     def write(self, path):
-        """Writes two digits more than are claimed."""
+        """Writes two digits more than the claimed accuracy."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_NONE)
             writer.writerow(COLUMNS)
@@ -41,14 +41,14 @@ class Table:
 
 
 def text_of(value, within):
-    """The value with two digits beyond those that `within` claims."""
+    """Returns the value with two digits beyond the accuracy `within`."""
     last = math.floor(math.log10(within)) - 2
     leading = math.floor(math.log10(abs(value))) if value else last
     return f"{value:.{min(max(leading - last, 1), 16)}e}" if leading < -3 or last > 0 else f"{value:.{-last}f}"
 
 
 def read(path):
-    """The table that stands in a file."""
+    """Returns the table in a file."""
     table = Table()
     with open(path, newline="", encoding="utf-8") as file:
         reader = csv.reader(file)
@@ -75,7 +75,8 @@ def differences(old, new):
 
 
 def run(fill, script):
-    """The command of a script: writes its table, or compares with it (--check). @param fill  adds rows to a table"""
+    """Runs the command of a script, which writes its table or compares with it (--check). @param fill  adds rows to a
+    table"""
     parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
     parser.add_argument("--check", action="store_true", help="compare with the table, and change nothing")
     check = parser.parse_args().check

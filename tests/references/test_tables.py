@@ -1,4 +1,4 @@
-"""Each table belongs to a script and is read by a test, and differences from a table are reported."""
+"""Tests that each table belongs to a script and is read by a test, and that differences from a table are reported."""
 import glob
 import os
 import re
@@ -14,7 +14,7 @@ def stems(pattern):
 
 
 def subjects():
-    """Scripts that write a table."""
+    """Returns the scripts that write a table."""
     found = set()
     for stem in stems("*.py"):
         with open(os.path.join(FOLDER, stem + ".py"), encoding="utf-8") as file:

@@ -1,7 +1,7 @@
 """Bending frequencies of Timoshenko's beam of square steel section, shear factor 5/6: E = 210 GPa, nu = 0.3.
 
-Deflection w, rotation psi, moment and shear force along the beam are the exponential of a matrix; a frequency makes the
-determinant of what the far end's conditions ask for vanish.
+A matrix exponential gives deflection w, rotation psi, moment and shear force along the beam. At a frequency, the
+determinant of the conditions at the far end is zero.
 """
 import numpy as np
 from scipy.linalg import expm
@@ -21,9 +21,10 @@ class Beam:
         self.mass, self.rotary = density * A, density * I
 
     def across(self, omega):
-        """From one end to the other: w' = psi + V/GA, psi' = M/EI, M' = -V - J omega^2 psi, V' = -m omega^2 w.
+        """Returns the map from one end to the other, by w' = psi + V/GA, psi' = M/EI, M' = -V - J omega^2 psi, V' = -m
+        omega^2 w.
 
-        Scaled, so that all entries are of one size.
+        It is scaled, so that all entries have similar sizes.
         """
         w2 = omega**2
         system = np.array([[0, 1, 0, self.EI / self.GA], [0, 0, 1, 0], [0, -self.rotary * w2 / self.EI, 0, -1],
@@ -31,7 +32,8 @@ class Beam:
         return expm(system)
 
     def roots(self, given, asked, guesses):
-        """Frequencies [rad/s] near guesses. @param given,asked  which of w, psi, M, V are zero at the two ends"""
+        """Returns frequencies [rad/s] near guesses. @param given,asked  which of w, psi, M, V are zero at the two
+        ends"""
         free = [k for k in range(4) if k not in given]
 
         def determinant(omega):

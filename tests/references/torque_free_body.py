@@ -1,4 +1,4 @@
-"""A free body that is spun about its intermediate axis: J = diag(1, 2, 3) kg m^2, Omega(0) = (0.01, 5, 0.01) rad/s.
+"""A free body that spins about its intermediate axis: J = diag(1, 2, 3) kg m^2, Omega(0) = (0.01, 5, 0.01) rad/s.
 
 Closed form by Jacobi's elliptic functions (L. D. Landau, E. M. Lifshitz, Mechanics, section 37), with 40 digits. The
 energy 2 E = sum J_k Omega_k^2 and the angular momentum M^2 = sum (J_k Omega_k)^2 satisfy M^2 > 2 E J_2:
@@ -25,7 +25,7 @@ def fill(rows):
     speed = sqrt((J[2] - J[1]) * (M2 - E2 * J[0]) / (J[0] * J[1] * J[2]))
     m = (J[1] - J[0]) * (E2 * J[2] - M2) / ((J[2] - J[1]) * (M2 - E2 * J[0]))
     K = mpmath.ellipk(m)
-    # The start is where sn is start_2/b, on the side where cn > 0.
+    # The start has sn = start_2/b and cn > 0.
     phase = mpmath.ellipf(mpmath.asin(start[1] / b), m)
 
     def Omega(t):
@@ -36,7 +36,7 @@ def fill(rows):
     for value, given in zip(Omega(0), start):
         if abs(value - given) > mpf("1e-25"):
             raise ArithmeticError("the closed form does not begin at the start")
-    # Euler's equations hold for the closed form.
+    # The closed form satisfies Euler's equations.
     w, rate = Omega(mpf(2)), [mpmath.diff(lambda t, k=k: Omega(t)[k], mpf(2)) for k in range(3)]
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3

@@ -25,12 +25,12 @@ X, Y, Z = np.eye(3)
 
 
 def cross(a):
-    """The matrix of a x."""
+    """Returns the matrix of the product a x."""
     return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
 
 
 def section(values):
-    """Stiffness in forces and in moments, and inertia of rotation, per length in the blade's axes."""
+    """Returns the stiffness for forces and for moments, and the rotary inertia per length, in the blade's axes."""
     twist, flap_inertia, edge_inertia, flap, edge, torsion, axial = values
     c, s = np.cos(np.radians(twist)), np.sin(np.radians(twist))
     along, across = np.array([s, c, 0]), np.array([c, -s, 0])  # chordwise, and normal to it
@@ -40,7 +40,7 @@ def section(values):
 
 
 def tension(z, mass):
-    """Centrifugal force per square of the speed at the stations, and beyond any place within a segment."""
+    """Returns the centrifugal force per squared speed at the stations, and a function for places within a segment."""
     def beyond(k, at):
         nodes, weights = np.polynomial.legendre.leggauss(3)
         half = (z[k + 1] - at) / 2
@@ -53,7 +53,7 @@ def tension(z, mass):
 
 
 def shape_functions(degree):
-    """Gauss points and weights on [-1, 1], and the values and slopes there of Lagrange's polynomials."""
+    """Returns Gauss points and weights on [-1, 1], with the values and slopes of Lagrange's polynomials there."""
     nodes = np.concatenate([[-1], np.polynomial.legendre.Legendre.basis(degree).deriv().roots(), [1]])
     points, weights = np.polynomial.legendre.leggauss(degree + 3)
     coefficients = np.linalg.inv(np.vander(nodes, increasing=True))
@@ -64,7 +64,7 @@ def shape_functions(degree):
 
 
 def matrices(speed, degree):
-    """Mass, gyroscopic and stiffness matrix of the clamped blade."""
+    """Returns mass, gyroscopic and stiffness matrix of the clamped blade."""
     data = np.loadtxt(DATA, delimiter=",", skiprows=1)
     z, mass, others = LENGTH * data[:, 0], data[:, 2], data[:, [1, 3, 4, 5, 6, 7, 8]]
     force = tension(z, mass)
@@ -102,7 +102,7 @@ def matrices(speed, degree):
 
 
 def frequencies(speed, degree, count):
-    """The lowest frequencies [Hz]."""
+    """Returns the lowest frequencies [Hz]."""
     M, G, K = matrices(speed, degree)
     # With x exp(i w t) and y = w x, K x = w (M y - i G x): 1/w is an eigenvalue of (x, y) -> (K^-1 (M y - i G x), x).
     n = M.shape[0]

@@ -22,7 +22,7 @@ GRAVITY = 9.81
 
 
 class Blades:
-    """States: displacements of the hub (if it moves), lag angles; then their rates."""
+    """States are the displacements of the hub (if it moves), the lag angles, and their rates."""
     mass, radius, inertia = 2.0, 0.4, 0.06
 
     def __init__(self, count, spring, damper, hub=None, rate=6.0, hinge=0.2, first=1.0):
@@ -31,7 +31,7 @@ class Blades:
         self.size = count + (2 if hub else 0)
 
     def place(self, t, z, blade, direction):
-        """Derivatives of a displacement of the mass of a blade by the coordinates, or of the hub (-1)."""
+        """Returns the derivatives of a displacement of the mass of a blade, or of the hub (-1), by the coordinates."""
         row = np.zeros(self.size, z.dtype)
         if self.hub:
             row[direction] = 1
@@ -54,7 +54,7 @@ class Blades:
         for b in range(self.count):
             m, i, alpha = masses[b], first + b, rate * t + 2 * np.pi * b / self.count
             theta, omega = alpha + q[i], rate + v[i]
-            # The acceleration of the mass without lag and hub accelerations.
+            # This is the acceleration of the mass without accelerations of lag and hub.
             inner = -e * rate**2 * np.array([np.cos(alpha), np.sin(alpha)])
             own = inner - r * omega**2 * np.array([np.cos(theta), np.sin(theta)])
             along = r * np.array([-np.sin(theta), np.cos(theta)])
@@ -66,12 +66,12 @@ class Blades:
         return np.concatenate([v, np.linalg.solve(M, f + self.force(t, z))])
 
     def force(self, t, z):
-        """A small force, set by `respond`."""
+        """`respond` sets a small force."""
         return 0
 
 
 class Unbalance:
-    """States: displacements of the hub, angle of the rotor beyond rate t; then their rates."""
+    """States are the displacements of the hub, the angle of the rotor relative to rate t, and their rates."""
     rest, mass, radius, inertia, rate = 10.0, 1.0, 0.5, 0.3, 7.0
     springs = np.array([1000.0, 1500.0])
     size = 3
@@ -89,7 +89,7 @@ class Unbalance:
         return np.concatenate([v, np.linalg.solve(M, f + self.force(t, z))])
 
     def force(self, t, z):
-        """A small force, set by `respond`."""
+        """`respond` sets a small force."""
         return 0
 
     def place(self, t, z, coordinate):
@@ -107,7 +107,7 @@ def jacobian(system, t, z):
 
 
 def turn(system, z):
-    """State and monodromy matrix after a turn."""
+    """Returns state and monodromy matrix after a turn."""
     n = len(z)
 
     def whole(t, y):
@@ -133,7 +133,8 @@ def orbit(system):
 
 
 def respond(system, start, s, forces, outputs):
-    """Responses of the outputs (rows) to forces (columns): rows of derivatives by the coordinates, functions of t and the state."""
+    """Returns the responses of the outputs (rows) to forces (columns). Both are rows of derivatives by the coordinates,
+    as functions of t and the state."""
     n, T, tiny = len(start), 2 * np.pi / system.rate, 1e-30
     columns = n + len(forces)
 
@@ -170,7 +171,7 @@ def add_responses(rows, name, system, forces, outputs, frequencies):
 
 
 def exponents(system, phi):
-    """Exponents with imaginary parts from 0 to half of the rate."""
+    """Returns the exponents with imaginary parts from 0 to half of the rate."""
     s = np.log(np.linalg.eigvals(phi).astype(complex)) * system.rate / (2 * np.pi)
     return sorted((each for each in s if each.imag >= -1e-12), key=lambda each: (each.imag, each.real))
 
@@ -191,7 +192,7 @@ def fill(rows):
     hub = {"mass": 20.0, "spring": [9000.0, 14000.0], "damper": [30.0, 50.0]}
     add(rows, "two_blades", Blades(2, 60.0, 0.3, hub), "two blades under gravity on a hub on springs")
     add(rows, "slow_blades", Blades(3, 60.0, 0.3, hub, 1.0), "three blades under gravity at 1 rad/s")
-    # Twice the frequency of the blade: gravity changes its stiffness once per turn (Mathieu's equation).
+    # The rate is twice the frequency of the blade: gravity changes the stiffness once per turn (Mathieu's equation).
     add(rows, "resonant_blade", Blades(1, 60.0, 0.01, None, 25.13, 0.0), "a blade in parametric resonance")
     for name, system in (("two_blades", Blades(2, 60.0, 0.3, hub)), ("unequal_blades", Blades(3, 60.0, 0.3, hub, first=1.3))):
         last = system.count - 1

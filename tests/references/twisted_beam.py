@@ -1,7 +1,8 @@
 """The twisted beam (R. MacNeal, R. Harder, Finite Elem. Anal. Des. 1 (1985) 3): deflections under unit loads.
 
-Length 12, 1.1 x 0.32, turned by 90 degrees over its length, E = 29e6, nu = 0.22, shear factor 5/6. By the principle of
-virtual forces, integrals of the section's flexibility in inertial axes: deflections of a linear rod are exact so.
+The beam has the length 12, a section of 1.1 x 0.32 that rotates by 90 degrees over the length, E = 29e6, nu = 0.22, and
+the shear factor 5/6. By the principle of virtual forces, integrals of the section's flexibility in inertial axes give
+the exact deflections of a linear rod.
 """
 import numpy as np
 from scipy.integrate import quad_vec
@@ -13,15 +14,16 @@ G = E / 2.44
 
 
 def flexibility(shear):
-    """Deflections (y, z) of the tip under unit loads (y, z). @param shear  factor of the area; infinite: none"""
-    # The section's first axis lies along y at the root, and carries the width.
+    """Returns the deflections (y, z) of the tip under unit loads (y, z). @param shear  factor of the area; infinite:
+    none"""
+    # The section's first axis is along y at the root, and is the direction of the width.
     bending = np.diag([1 / (E * width * height**3 / 12), 1 / (E * height * width**3 / 12)])  # about its axes y, z
 
     def integrand(x):
         angle = np.pi / 2 * x / L
         c, s = np.cos(angle), np.sin(angle)
         axes = np.array([[c, -s], [s, c]])
-        # A load (P_y, P_z) has the moments (-(L - x) P_z, (L - x) P_y) about y and z.
+        # A load (P_y, P_z) causes the moments (-(L - x) P_z, (L - x) P_y) about y and z.
         moments = (L - x) * np.array([[0, -1], [1, 0]])
         bent = moments.T @ axes @ bending @ axes.T @ moments
         return bent + np.eye(2) / (shear * G * width * height)

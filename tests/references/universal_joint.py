@@ -1,6 +1,7 @@
-"""Two flywheels on a universal joint that is bent by 30 degrees, free from 10 rad/s of the first.
+"""Two free flywheels are connected by a universal joint with an angle of 30 degrees; the first one starts with 10
+rad/s.
 
-theta_1' from the energy J_1 omega_1^2 + J_2 omega_2^2 with omega_2/omega_1 = cos b/(1 - sin^2 b cos^2 theta_1).
+The energy J_1 omega_1^2 + J_2 omega_2^2, with omega_2/omega_1 = cos b/(1 - sin^2 b cos^2 theta_1), gives theta_1'.
 """
 import numpy as np
 

@@ -41,14 +41,14 @@ class Parser(argparse.ArgumentParser):
 
 
 def count(word):
-    """A number of jobs. @raises ArgumentTypeError"""
+    """Returns a number of jobs. @raises ArgumentTypeError"""
     if not word.isdecimal() or not 1 <= int(word) <= 1000:
         raise argparse.ArgumentTypeError(f"'{word}': expected a whole number between 1 and 1000")
     return int(word)
 
 
 def results_parser(name, description, several=False):
-    """A parser of options for a file of results, `results`, or for several, `files`."""
+    """Returns a parser of options for a file of results, `results`, or for several, `files`."""
     parser = Parser(prog=name, description=description, formatter_class=Parser.raw)
     if several:
         parser.add_argument("files", metavar="RESULTS.h5", nargs="+", help="results of bielle-mechanism, or a study")
@@ -61,7 +61,7 @@ def results_parser(name, description, several=False):
 
 
 def finite(text):
-    """The number of an option. @raises argparse.ArgumentTypeError"""
+    """Returns the number of an option. @raises argparse.ArgumentTypeError"""
     try:
         value = float(text)
     except ValueError:
@@ -72,14 +72,15 @@ def finite(text):
 
 
 def add_row_options(parser):
-    """Options that pick rows of results; `selected_rows` reads them."""
+    """Adds options that select rows of results; `selected_rows` reads them."""
     parser.add_argument("--span", metavar="A:B", help="only the times from A to B [s] (load factors in statics); one of "
                         "them may be missing")
     parser.add_argument("--every", type=int, metavar="N", help="only every N-th of these times")
 
 
 def selected_rows(options):
-    """The function that gives the rows of results that the options pick. @raises InputError for a wrong option"""
+    """Returns the function that gives the rows of results that the options select. @raises InputError for a wrong
+    option"""
     begin = end = None
     if options.span is not None:
         try:
@@ -93,14 +94,14 @@ def selected_rows(options):
 
 
 def add_motion_options(parser):
-    """Options of the commands that show a motion."""
+    """Adds the options of commands that show a motion."""
     parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements and, in pictures, of beams (default 1)")
     parser.add_argument("--from", type=finite, dest="begin", metavar="T", help="first time to show [s]")
     parser.add_argument("--to", type=finite, dest="end", metavar="T", help="last time to show [s]")
 
 
 def add_mode_options(parser):
-    """Options of the commands that show a mode as a motion."""
+    """Adds the options of commands that show a mode as a motion."""
     parser.add_argument("--mode", type=int, metavar="N", help="show mode N of an analysis 'eigen' over one period, instead of a motion")
     parser.add_argument("--amplitude", type=float, metavar="SHARE", help="of a mode: its largest displacement relative to the model's size "
                         "(default 0.1)")
@@ -108,7 +109,7 @@ def add_mode_options(parser):
 
 
 def opened_mode(options, results, pictures):
-    """The requested mode as a motion, or None. @raises InputError"""
+    """Returns the requested mode as a motion, or None. @raises InputError"""
     if options.mode is None:
         if options.amplitude is not None or options.decay:
             raise InputError("--amplitude and --decay go with --mode N")
@@ -126,8 +127,8 @@ def opened_mode(options, results, pictures):
 
 
 def superelement_paths(options, results, anywhere=False):
-    """{element: path} of the option --superelement. @raises InputError for elements that the results do not contain;
-    with `anywhere` they may be in another analysis than the one that is shown"""
+    """Returns {element: path} of the option --superelement. @raises InputError for elements that the results do not
+    contain; with `anywhere` they may be in another analysis than the one that is shown"""
     pairs = {}
     for text in options.superelement:
         element, separator, path = text.partition("=")
@@ -144,7 +145,7 @@ def superelement_paths(options, results, anywhere=False):
 
 
 def _superelements(results):
-    """The names that --superelement accepts: pieces separately and together."""
+    """Returns the names that --superelement accepts, for pieces separately and together."""
     known = results.elements_with("frame")
     return known + [results.entry_of(name) for name in known]
 

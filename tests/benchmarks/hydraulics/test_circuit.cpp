@@ -162,6 +162,39 @@ TEST_CASE("pressures at the start that are not given hold the load") {
   }
 }
 
+TEST_CASE("cylinders that hold the same load share it by the forces of smallest norm") {
+  // A rigid slab stands on three cylinders of different areas, one more than balance determines. Among all forces with
+  // sum F = W and sum x F = W c, those of smallest sum of squares are linear in x: F = W/3 + W (c - 1)(x - 1)/2.
+  constexpr double weight = 500 * 9.81, p_a = 101325, c = 1.2;
+  std::string text =
+      "gravity: [0, 0, -9.81]\nnodes:\n  slab: {position: [1.2, 0, 1.2], fixed: [x, y, rx, rz]}\n"
+      "elements:\n  slab: {type: rigid_body, node: slab, mass: 500, inertia: [100, 100, 200]}\n";
+  const std::vector<double> areas = {2e-3, 1e-3, 3e-3};
+  for (int k = 0; k < 3; ++k)
+    text += fmt::format(
+        "  jack_{0}: {{type: hydraulic_actuator, nodes: [ground, slab], at: [[{0}, 0, 0], [{1}, 0, 0]], "
+        "piston_areas: [{2}, 0], dead_volumes: [1e-4, 1e-4], stroke: [1, 1.5]}}\n",
+        k, k - c, areas[static_cast<std::size_t>(k)]);
+  const auto check = [&](const Session& session) {
+    for (int k = 0; k < 3; ++k) {
+      CAPTURE(k);
+      const double force = weight / 3 + weight * (c - 1) * (k - 1) / 2;
+      const std::string jack = fmt::format("elements/jack_{}/", k);
+      CHECK(session.read(jack + "force")[0] == Approx(force).epsilon(1e-6));
+      CHECK(session.read(jack + "pressure")[0] ==
+            Approx(p_a + force / areas[static_cast<std::size_t>(k)]).epsilon(1e-6));
+      CHECK(session.read(jack + "length")[0] == Approx(1.2).epsilon(1e-9));
+    }
+  };
+  SECTION("in motion") { run_hydraulics(text, {.h = 1e-2, .end = 0.1}, check); }
+  SECTION("in statics") {
+    const MechanismFile file = read_mechanism_text(text, "model.yaml");
+    Session session(file.model);
+    compute_statics(session);
+    check(session);
+  }
+}
+
 TEST_CASE("statics: trapped oil gives under a load as its stiffness says") {
   // For a small load, k = B (A_1^2/V_1 + A_2^2/V_2).
   const std::string text =

@@ -1,4 +1,4 @@
-"""An example of mechanism/examples, run as a user runs it: once for all tests of a class."""
+"""Base class of tests of an example of mechanism/examples, which is run once for all tests of a class."""
 
 import os
 import shutil
@@ -21,12 +21,13 @@ EXAMPLES = os.path.join(REPOSITORY, "mechanism", "examples")
 
 
 def gallery_checks(name, paths):
-    """The checks of a machine of the gallery. @param paths  {run: path of its results}"""
+    """Returns the checks of a machine of the gallery. @param paths  {run: path of its results}"""
     return catalogue.chosen(catalogue.FOLDER, [name])[name].check(paths)
 
 
 class ExampleTest(unittest.TestCase):
-    """results, time: of the run of `model`; superelement: the model's name for BIELLE_SUPERELEMENT."""
+    """`results` and `time` are those of the run of `model`; `superelement` is the name in the model for
+    BIELLE_SUPERELEMENT."""
 
     model = ""
     superelement = ""
@@ -50,11 +51,11 @@ class ExampleTest(unittest.TestCase):
         cls.time = cls.results.time
 
     def rows(self, name):
-        """Rows of a dataset, without dimensions of length one."""
+        """Returns the rows of a dataset, without dimensions of length one."""
         return np.squeeze(self.results.rows(name))
 
     def events(self):
-        """Names and times of the events of the first analysis, in their order."""
+        """Returns names and times of the events of the first analysis in order of time."""
         names = self.results.file["crossings"][()].decode().splitlines()
         group = self.results.file["analysis_1/events"]
         return [(names[int(k)], float(time)) for k, time in zip(group["crossing"][:], group["time"][:])]

@@ -1,4 +1,5 @@
-"""mechanism/examples/bearings.yaml: an oil film against Ocvirk's closed form, preloaded ball bearings against that of their axial load."""
+"""Compares mechanism/examples/bearings.yaml with closed forms: Ocvirk's of an oil film, and that of preloaded ball
+bearings under axial load."""
 
 import unittest
 
@@ -37,7 +38,8 @@ class Bearings(ExampleTest):
         names = self.results.text_of("crossings").splitlines()
         times = [time for time, which in zip(self.results.file["events/time"][:], self.results.file["events/crossing"][:]) if "unloading" in names[int(which)]]
         self.assertEqual(len(times), 1)
-        self.assertAlmostEqual(np.interp(times[0], self.time, self.rows("joints/lower/force")[:, 2]), -100, delta=2)  # straight lines between rows
+        # Rows are interpolated linearly.
+        self.assertAlmostEqual(np.interp(times[0], self.time, self.rows("joints/lower/force")[:, 2]), -100, delta=2)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""mechanism/examples/belt_and_brake.yaml: the belt slips at the limit of its friction, the band brake stops the drum."""
+"""Tests mechanism/examples/belt_and_brake.yaml: the belt slips at its limit of friction, and the band brake stops the
+drum."""
 
 import math
 import unittest
@@ -23,7 +24,7 @@ class BeltAndBrake(ExampleTest):
         slipping = slips[:, 0] == 1
         np.testing.assert_allclose(ratio[slipping], limit, rtol=1e-5)
         self.assertLess(ratio.max(), limit * (1 + 1e-5))
-        # It slips from the start on, and no more at the end, when the fan turns at a third of the motor's speed.
+        # The belt slips from the start, and sticks at the end, when the fan turns at a third of the motor's speed.
         self.assertTrue(slipping[1:20].all())
         self.assertFalse(slipping[-20:].any())
         motor, fan = (self.rows(f"joints/{each}_bearing/rate")[-1, 0] for each in ("motor", "fan"))

@@ -1,4 +1,4 @@
-"""mechanism/examples/car.yaml: corners that are placed and mirrored carry the car alike."""
+"""Tests mechanism/examples/car.yaml: corners that are placed and mirrored carry the car equally."""
 
 import unittest
 
@@ -16,9 +16,9 @@ class Car(ExampleTest):
     def test_tyres_carry_the_weight_at_the_start(self):
         forces = [-self.rows(f"elements/{corner}.tyre/force")[0] for corner in CORNERS]
         weight = (CHASSIS + 4 * CORNER) * G
-        # The wheels move sideways by some millimetres, so that the tyres stand at a small angle.
+        # The wheels move sideways by a few millimetres, so that the tyres are inclined by a small angle.
         self.assertAlmostEqual(sum(forces), weight, delta=1e-4 * weight)
-        # The centre of mass is 0.1 m in front of the middle of the axles, which are 2.6 m apart.
+        # The centre of mass is 0.1 m in front of the middle between the axles, whose distance is 2.6 m.
         front = (CHASSIS * 1.4 / 2.6 + 2 * CORNER) * G
         self.assertAlmostEqual(forces[0] + forces[1], front, delta=2e-3 * front)
 
@@ -29,7 +29,7 @@ class Car(ExampleTest):
                 left = self.rows(f"nodes/{axle}_left.{node}/position")[before]
                 right = self.rows(f"nodes/{axle}_right.{node}/position")[before]
                 np.testing.assert_allclose(left * [1, -1, 1], right, atol=1e-12)
-            # Hinges turn by equal angles: the axis of the mirror image is turned round.
+            # Hinges turn by equal angles, since the axis of the mirror image is reversed.
             np.testing.assert_allclose(self.rows(f"joints/{axle}_left.lower_hinge/coordinate")[before],
                                        self.rows(f"joints/{axle}_right.lower_hinge/coordinate")[before], atol=1e-12)
 

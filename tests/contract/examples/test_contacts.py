@@ -1,4 +1,4 @@
-"""mechanism/examples/contacts.yaml: the ball rolls, falls, hits the tile, and the tile falls on its face."""
+"""Tests mechanism/examples/contacts.yaml: the ball rolls, falls, hits the tile, and the tile falls on its face."""
 
 import unittest
 
@@ -13,7 +13,7 @@ class Contacts(ExampleTest):
     model = "contacts.yaml"
 
     def test_the_ball_rolls_down_the_ramp(self):
-        # From rest: 5/7 g sin(slope).
+        # A ball that rolls from rest has the acceleration 5/7 g sin(slope).
         row = np.searchsorted(self.time, 0.3)
         along = self.results.rows("nodes/ball/velocity")[row, :3] @ [np.cos(SLOPE), 0, -np.sin(SLOPE)]
         self.assertAlmostEqual(along, 5 / 7 * GRAVITY * np.sin(SLOPE) * self.time[row], delta=0.01)

@@ -1,4 +1,5 @@
-"""mechanism/examples/conveyor.yaml: a crate slides on the belt, moves along with it, and is stopped at its end."""
+"""Tests mechanism/examples/conveyor.yaml: a crate slides on the belt, moves with it, and is stopped at the end of the
+belt."""
 
 import math
 import unittest
@@ -25,7 +26,7 @@ class Conveyor(ExampleTest):
         self.assertAlmostEqual(push[carried].mean() / (MASS * G * math.sin(SLOPE)), 1, delta=1e-3)
 
     def test_heat_is_friction_times_the_sliding_way(self):
-        # Relative to the crate the belt moves by speed^2/(2 a), as far as the crate itself.
+        # The belt moves by speed^2/(2 a) relative to the crate, and the crate moves by the same distance.
         row = np.searchsorted(self.time, 1.2 * SLIDING)
         heat = FRICTION * MASS * G * math.cos(SLOPE) * 1.5 * SLIDING / 2
         self.assertAlmostEqual(self.rows("energy/dissipated")[row] / heat, 1, delta=5e-3)

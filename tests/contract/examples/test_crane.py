@@ -1,4 +1,5 @@
-"""mechanism/examples/crane.yaml: holds its load, lifts and lowers it with its valves, and balances its energy."""
+"""Tests mechanism/examples/crane.yaml: the crane holds its load, lifts and lowers it with its valves, and its energy is
+balanced."""
 
 import os
 import subprocess
@@ -19,7 +20,7 @@ class Crane(ExampleTest):
     superelement = "boom.h5"
 
     def test_it_is_what_the_valves_are_told(self):
-        """At rest before the first command; the load goes up, then down while the boom is lowered."""
+        """The crane is at rest before the first command; then the load goes up, and down while the boom is lowered."""
         height = self.rows("measures/load_height")
         before = self.time < 0.2
         np.testing.assert_allclose(height[before], height[0], atol=1e-3)
@@ -28,12 +29,13 @@ class Crane(ExampleTest):
         self.assertLess(lowered, raised - 0.2)
 
     def test_pressures_hold_the_load_at_the_start(self):
-        """Moments about the foot and about the tip, with all hinges free: the cylinders' forces from their pressures."""
+        """The moments about the foot and about the tip give the forces of the cylinders, since all hinges are free."""
         for jack in STROKES:
             pressure = self.rows(f"elements/{jack}/pressure")[0]
             force = self.rows(f"elements/{jack}/force")[0]
             self.assertAlmostEqual(force, AREAS @ ((pressure - AMBIENT) * [1, -1]), delta=1e-6 * abs(force) + 1)
-        # The jib: its weight at 0.7 m and the load at 1.4 m of the hinge; the cylinder's line of action from the drawing.
+        # The weight of the jib is 0.7 m and the load is 1.4 m from the hinge; the line of action of the cylinder
+        # follows from the drawing.
         lug, end, tip = np.array([2.2, 0]), np.array([3.7 - 0.85, -0.3]), np.array([3, 0])
         along = (end - lug) / np.linalg.norm(end - lug)
         arm = (end - tip)[0] * along[1] - (end - tip)[1] * along[0]
@@ -58,7 +60,7 @@ class Crane(ExampleTest):
         self.assertGreater(line.min(), 12e6)
 
     def test_valves_that_close_stop_the_load(self):
-        """The boom swings on its oil and its steel, the cylinder stands on average."""
+        """The boom vibrates due to the compliance of oil and steel; the mean length of the cylinder is constant."""
         rate = self.rows("elements/lift/rate")
         self.assertGreater(np.abs(rate).max(), 0.1)
         for begin, end in ((2.5, 4.0), (5.5, 6.0)):

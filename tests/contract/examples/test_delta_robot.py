@@ -1,4 +1,4 @@
-"""mechanism/examples/delta_robot.yaml: the angles and torques of its motors against closed forms."""
+"""Compares the angles and torques of the motors of mechanism/examples/delta_robot.yaml with closed forms."""
 
 import math
 import unittest
@@ -11,9 +11,9 @@ BASE, PLATFORM, ARM, ROD, DROOP = 0.2, 0.05, 0.25, 0.6, math.radians(30)
 
 
 def motor_angle(place, azimuth):
-    """Angle below the horizontal of the upper arm whose rods reach a place of the platform.
+    """Returns the angle below the horizontal of the upper arm for a position of the platform.
 
-    In the plane of the arm: |(X - ARM cos q, y, z + ARM sin q)| = ROD, with X = x + PLATFORM - BASE.
+    It solves |(X - ARM cos q, y, z + ARM sin q)| = ROD in the plane of the arm, with X = x + PLATFORM - BASE.
     """
     x, y, z = place
     along, across = x * math.cos(azimuth) + y * math.sin(azimuth), y * math.cos(azimuth) - x * math.sin(azimuth)
@@ -44,7 +44,8 @@ class DeltaRobot(ExampleTest):
         np.testing.assert_allclose(rotation, np.broadcast_to(rotation[0], rotation.shape), atol=1e-12)
 
     def test_torques_hold_the_weights_at_rest(self):
-        """Virtual work: three motors against the platform (1 kg) and the middles of the upper arms (0.6 kg)."""
+        """The virtual work of the three motors balances that of the weights of the platform (1 kg) and of the upper
+        arms (0.6 kg)."""
         z, step = self.place[0, 2], 1e-6
         turn = (motor_angle((0, 0, z + step), 0) - motor_angle((0, 0, z - step), 0)) / (2 * step)  # dq/dz
         torque = -9.81 * (1 / (3 * turn) - 0.6 * ARM / 2 * math.cos(DROOP)) * -1

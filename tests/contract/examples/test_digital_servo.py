@@ -1,4 +1,5 @@
-"""mechanism/examples/digital_servo.yaml: is lifted, holds its weight, and its states are held between instants."""
+"""Tests mechanism/examples/digital_servo.yaml: the arm is lifted and holds its weight, and states are constant between
+instants."""
 
 import unittest
 
@@ -32,7 +33,7 @@ class DigitalServo(ExampleTest):
         np.testing.assert_allclose(counts, np.round(counts), atol=1e-8)
         steps = np.round(self.time / (PERIOD / 2)).astype(int)
         np.testing.assert_allclose(steps * PERIOD / 2, self.time, atol=1e-12)
-        # A row at an instant has the value before it: the new one stands in the next row.
+        # The row at an instant has the value before it; the next row has the new value.
         self.assertLess(np.abs(self.encoder[1::2] - self.angle[:-1:2]).max(), COUNT / 2 + 1e-9)
         np.testing.assert_array_equal(self.encoder[2::2], self.encoder[1::2])
 

@@ -1,4 +1,4 @@
-"""mechanism/examples/flexible_joints.yaml: mounts, bearings and play, held against closed forms."""
+"""Compares mounts, bearings and play in mechanism/examples/flexible_joints.yaml with closed forms."""
 
 import os
 import unittest
@@ -22,7 +22,7 @@ class FlexibleJoints(ExampleTest):
         at = np.searchsorted(self.time, t - 1e-9)
         floor = self.rows("nodes/floor/position")[:, 0]
         for k in range(len(t)):
-            # Rows stand on the record's times, but for those between two rows.
+            # Rows are at the times of the record, except those between two rows.
             if abs(self.time[at[k]] - t[k]) < 1e-9:
                 self.assertAlmostEqual(floor[at[k]], x[k], delta=1e-12)
 
@@ -42,14 +42,15 @@ class FlexibleJoints(ExampleTest):
         z = self.rows("nodes/tip/position")[:, 2]
         static = 9.81 / w ** 2
         early = self.time < 0.3
-        # The scheme loses phase by (w h)^2/12 w t or so: 1e-3 of the amplitude.
+        # The scheme has a phase error of about (w h)^2/12 w t, which is 1e-3 of the amplitude.
         np.testing.assert_allclose(z[early], -static * (1 - np.cos(w * self.time[early])), atol=2e-3 * static)
 
     def test_the_slider_follows_the_crank_but_for_the_play(self):
         angle = self.rows("joints/main/coordinate")[:, 0]
         ideal = 0.1 * np.cos(angle) + np.sqrt(0.3 ** 2 - (0.1 * np.sin(angle)) ** 2)
         off = np.abs(self.rows("nodes/slider/position")[:, 0] - 4 - ideal)
-        # The play and the penetration of the surfaces along the slider's way, for a rod inclined by asin(1/3).
+        # This is the play and the penetration of the surfaces along the path of the slider, for a rod inclined by
+        # asin(1/3).
         play = 1e-4 + self.rows("joints/wrist/penetration").max()
         self.assertLess(off.max(), play / np.sqrt(1 - 1 / 9))
         self.assertGreater(off.max(), 0.8e-4)
@@ -59,7 +60,7 @@ class FlexibleJoints(ExampleTest):
         q, force = self.rows("joints/socket/coordinate")[late], self.rows("joints/socket/normal_force")[late, 0]
         self.assertTrue(np.all(force > 0))
         self.assertTrue(np.all(q[:, 2] < -1.8e-3))
-        # Nearly its weight: it swings a little, and spins about its own axes.
+        # The force is nearly the weight, since the part swings a little and spins about its own axes.
         self.assertAlmostEqual(force.mean(), 0.2 * 9.81, delta=0.05 * 0.2 * 9.81)
 
 

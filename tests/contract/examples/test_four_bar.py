@@ -1,4 +1,4 @@
-"""mechanism/examples/four_bar.yaml: moves as rigid links do, within the deformation of its coupler and rocker."""
+"""Tests that mechanism/examples/four_bar.yaml moves like rigid links, up to the deformation of coupler and rocker."""
 
 import unittest
 
@@ -22,7 +22,7 @@ class FourBar(ExampleTest):
         place = self.results.rows("nodes/coupler.P/position")
         self.assertLess(np.abs(place[:, :2] - tool).max(), 2e-4)
         self.assertGreater(np.ptp(tool[:, 0]), 0.15)
-        self.assertLess(np.abs(place[:, 2]).max(), 1e-6)  # nothing pushes it out of its plane
+        self.assertLess(np.abs(place[:, 2]).max(), 1e-6)  # no force acts out of the plane
 
     def test_the_motor_reaches_its_speed(self):
         rate = self.results.rows("joints/main/rate")[:, 0]

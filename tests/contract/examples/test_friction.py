@@ -1,4 +1,4 @@
-"""mechanism/examples/friction.yaml: sticks and slips, holds, slides and comes to rest as the closed forms require."""
+"""Compares sticking, slipping, holding and sliding in mechanism/examples/friction.yaml with closed forms."""
 
 import math
 import os
@@ -25,7 +25,7 @@ class Friction(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("displacement sticks", done.stdout)
             results = Results(target)
-            # Breaks loose at mu_s m g, and turns back about mu_k m g.
+            # The mass breaks loose at mu_s m g, and its spring force oscillates about mu_k m g.
             friction = np.array(results.rows("joints/contact/friction"))[:, 0]
             self.assertAlmostEqual(friction.max(), 0.4 * 9.81, delta=0.05)
             place = np.array(results.rows("nodes/crate/position"))[:, 0]
@@ -40,7 +40,7 @@ class Friction(unittest.TestCase):
                                   [inertia, (lead * radius - 0.15 * radius ** 2) / c]])
             acceleration, _ = np.linalg.solve(equations, [-mass * 9.81, 0])
             self.assertAlmostEqual(steep[-1, 1] / (0.5 * acceleration * 16), 1, delta=1e-6)
-            # The sign hangs still; its angle from the vertical is within the friction of the bearing.
+            # The sign hangs at rest; the friction of the bearing holds it at its angle from the vertical.
             angle, rate = (np.array(results.rows(f"joints/bearing/{what}"))[-1, 0] for what in ("coordinate", "rate"))
             self.assertLess(abs(rate), 1e-3)
             self.assertLess(abs(math.cos(angle)), 0.6 * 0.15 / 0.4)

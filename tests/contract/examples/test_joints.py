@@ -1,5 +1,5 @@
-"""mechanism/examples/joints.yaml: every type of joint (elastic ones are in flexible_joints.yaml and bearings.yaml), each moving as its
-closed form requires."""
+"""Compares every type of joint in mechanism/examples/joints.yaml with a closed form (elastic ones are in
+flexible_joints.yaml and bearings.yaml)."""
 
 import math
 import os
@@ -34,12 +34,13 @@ class Joints(ExampleTest):
         for model in (MODEL, *(os.path.join(os.path.dirname(MODEL), name) for name in ("flexible_joints.yaml", "bearings.yaml"))):
             with open(model, encoding="utf-8") as file:
                 used |= set(re.findall(r"type: (\w+)", file.read()))
-        # A rod with two balls is a `distance` with another name; contacts.yaml has contacts, and the reference's page of tyres a model.
+        # A rod with two balls is another name of `distance`; contacts.yaml has contacts, and the manual's page of tyres
+        # has a model.
         self.assertEqual(types - used - {"spherical_spherical", "contact", "tyre"}, set())
 
     def test_shafts(self):
         bend = math.radians(25)
-        # The input arm lies along x, in the plane of the shafts, where it is drawn.
+        # The input arm is drawn along x, in the plane of the shafts.
         expected = np.unwrap(np.arctan2(np.sin(self.turned), np.cos(self.turned) * math.cos(bend)))
         self.assert_follows("u_bearing_out", expected, 1e-7)
         self.assert_follows("c_bearing_out", self.turned, 1e-7)
@@ -69,7 +70,7 @@ class Joints(ExampleTest):
         swing = np.array(self.results.rows("nodes/swing/position")) - [3, 0, 0]
         np.testing.assert_allclose(np.linalg.norm(swing, axis=1), 0.5 - 0.05 * self.time, atol=1e-9)
         ring = self.coordinate("ring_joint")
-        self.assertLess(ring[-1], -0.01)  # it has slid down
+        self.assertLess(ring[-1], -0.01)  # the slider has moved down
         car = np.array(self.results.rows("nodes/car/position"))
         np.testing.assert_allclose(np.hypot((car[:, 0] - 7) / 0.5, car[:, 1] / 0.3), 1, atol=1e-4)
 

@@ -1,4 +1,5 @@
-"""mechanism/examples/kart.yaml: its tyres carry the kart, keep to their friction, turn it, and hold it on the slope."""
+"""Tests mechanism/examples/kart.yaml: the tyres carry the kart within their friction, steer it, and hold it on the
+slope."""
 
 import math
 import unittest
@@ -9,7 +10,7 @@ from example import ExampleTest
 
 TYRES = ("front_left", "front_right", "rear_left", "rear_right")
 G, SLOPE, MASS, TRACK, RADIUS = 9.81, 0.08, 150 + 2 * 1 + 4 * 4, 1.1, 0.13
-# Heights of the centres of mass: the chassis at 0.2 m, knuckles and wheels at that of the hubs.
+# The centre of mass of the chassis is at a height of 0.2 m, those of knuckles and wheels at the height of the hubs.
 HEIGHT = (150 * 0.2 + 18 * (RADIUS - 3.6e-3)) / MASS
 
 
@@ -17,14 +18,14 @@ class Kart(ExampleTest):
     model = "kart.yaml"
 
     def forces(self):
-        """Sum of the forces of the tyres on the wheels, inertial."""
+        """Returns the sum of the forces of the tyres on the wheels, in inertial axes."""
         return sum(self.rows(f"joints/{tyre}.tyre/reaction_inertial")[:, :3] for tyre in TYRES)
 
     def loads(self):
         return {tyre: self.rows(f"joints/{tyre}.tyre/normal_force") for tyre in TYRES}
 
     def test_the_tyres_carry_the_weight(self):
-        # The mean while it rolls straight: the kart heaves on its tyres by some thousandths.
+        # The mean is taken while the kart rolls straight, since it heaves on its tyres by some thousandths.
         straight = (self.time > 0.2) & (self.time < 1)
         mean = sum(self.loads().values())[straight].mean()
         self.assertAlmostEqual(mean / (MASS * G * math.cos(SLOPE)), 1, delta=1e-3)
@@ -35,21 +36,22 @@ class Kart(ExampleTest):
             self.assertLess((force / (0.9 * load)).max(), 1.001)
 
     def test_the_outer_tyres_carry_the_moment_of_the_turn(self):
-        # In the steady turn to the left: m a h = (N_right - N_left) w/2, a = speed times rate of the heading.
+        # In the steady left turn, m a h = (N_right - N_left) w/2 with a = speed times rate of the heading.
         row = np.argmin(abs(self.time - 2.8))
         load, velocity = self.loads(), self.rows("nodes/chassis/velocity")[row]
         centripetal = math.hypot(velocity[0], velocity[1]) * velocity[5]
         heading = math.atan2(velocity[1], velocity[0])
-        downhill = G * math.sin(SLOPE) * math.sin(-heading)  # along the left of the kart
+        downhill = G * math.sin(SLOPE) * math.sin(-heading)  # axis to the left of the kart
         moved = (load["front_right"] + load["rear_right"] - load["front_left"] - load["rear_left"])[row] * TRACK / 2
         self.assertGreater(centripetal, 4)
-        # Wheels that turn with the kart add their gyroscopic moments, I w Omega.
+        # Wheels that rotate with the kart add their gyroscopic moments I w Omega.
         spin = math.hypot(velocity[0], velocity[1]) / RADIUS
         expected = MASS * (centripetal - downhill) * HEIGHT + 4 * 0.02 * spin * velocity[5]
         self.assertAlmostEqual(moved / expected, 1, delta=0.02)
 
     def test_the_brakes_slow_it_by_their_torque(self):
-        # The rear wheels brake with brake/radius; rolling resistance acts on all, and their spin has to stop as well.
+        # The rear wheels brake with brake/radius. Rolling resistance acts on all wheels, whose rotation must stop as
+        # well.
         speed = self.rows("measures/velocity")
         early, late = (np.argmin(abs(self.time - t)) for t in (5, 7))
         slowed = (speed[early] - speed[late]) / 2

@@ -1,4 +1,4 @@
-"""mechanism/examples/landing_gear.yaml: it falls freely, its wheel is dragged up to speed, its leg springs back, and
+"""Tests mechanism/examples/landing_gear.yaml: it falls freely, friction spins up its wheel, its leg springs back, and
 it comes to rest."""
 
 import unittest
@@ -45,7 +45,7 @@ class LandingGear(ExampleTest):
         self.assertAlmostEqual(load, 2400 * 9.81 + leg + UNSPRUNG, delta=1e-3)
 
     def test_energy_balance_closes(self):
-        # The error falls with the tolerance: 147, 68, 32 and 7 J with 1e-4, 3e-5, 1e-5 and 1e-6.
+        # The error decreases with the tolerance: 147, 68, 32 and 7 J with 1e-4, 3e-5, 1e-5 and 1e-6.
         self.assertLess(np.abs(self.rows("energy/balance")).max(), 2e-3 * self.rows("energy/dissipated")[-1])
 
 

@@ -1,4 +1,4 @@
-"""mechanism/examples/latch.yaml: the effect of its events, and the momentum that its latch conserves."""
+"""Tests mechanism/examples/latch.yaml: the effect of its events, and the angular momentum that the latch conserves."""
 
 import math
 import unittest
@@ -15,7 +15,7 @@ class Latch(ExampleTest):
     model = "latch.yaml"
 
     def momentum(self):
-        """Angular momentum about the base, positive as the mast rises."""
+        """Returns the angular momentum about the base, positive when the mast rises."""
         total = 0
         for name, mass, inertia in (("lower", LOWER, BOX[0]), ("upper", UPPER, BOX[1])):
             x, v = (self.rows(f"nodes/{name}/{of}") for of in ("position", "velocity"))
@@ -32,7 +32,7 @@ class Latch(ExampleTest):
         after = int(np.searchsorted(self.time, self.events()[1][1]))
         before = after - 1
         self.assertEqual(self.rows("joints/base/rate")[before], 0)
-        # The row after the event is up to a step later; the springs change the momentum by 1 % within it.
+        # The row after the event is up to one step later; the springs change the momentum by 1 % in this time.
         momentum = self.momentum()
         self.assertAlmostEqual(momentum[after + 1] / momentum[before], 1, delta=0.03)
         mast = LOWER / 4 + BOX[0] + UPPER * 2.25 + BOX[1]

@@ -1,6 +1,6 @@
-"""mechanism/examples/mast.yaml: bends under the wind with the stresses of elementary beam theory.
+"""Compares stresses of mechanism/examples/mast.yaml under wind with elementary beam theory.
 
-The top moves by a few centimetres: the weight on the moved mast changes the moments by less than 2 %.
+The top moves by a few centimetres, so that the weight on the displaced mast changes the moments by less than 2 %.
 """
 
 import unittest
@@ -18,7 +18,7 @@ def wind(z):
 
 
 def wind_moment(z):
-    """Moment about z of the wind above z."""
+    """Returns the moment, about the height z, of the wind above it."""
     above = np.linspace(z, HEIGHT, 2001)
     return np.trapz(wind(above) * (above - z), above)
 
@@ -35,7 +35,7 @@ class Mast(ExampleTest):
     def test_moments_are_those_of_the_wind_above(self):
         moments = self.static["elements/mast/resultants"][-1, :, 5]
         expected = np.array([wind_moment(z) for z in self.z])
-        # The section's y points along the wind: bent towards it, M_z is positive. The weight adds up to 2 %.
+        # The section's y points along the wind, so that M_z is positive. The weight adds up to 2 %.
         np.testing.assert_allclose(moments, expected, atol=0.03 * expected[0])
 
     def test_corners_carry_the_stress_of_bending_and_weight(self):
@@ -57,7 +57,8 @@ class Mast(ExampleTest):
         top = self.results.rows("nodes/top/position")[:, 0]
         still = self.static["nodes/top/position"][-1, 0]
         self.assertAlmostEqual(top[0], still, delta=1e-6)
-        # Static answer to the gust is 40 % more; it comes within about one period and overshoots.
+        # The static response to the gust is 40 % larger; the gust rises within about one period, and the mast
+        # overshoots.
         self.assertGreater(top.max(), 1.4 * still)
         self.assertLess(top.max(), 1.9 * still)
         self.assertLess(abs(top[-1] - still), 0.25 * still)

@@ -1,4 +1,4 @@
-"""mechanism/examples/robot_arm.yaml: the tool follows its circle, and the motors alone carry and move it."""
+"""Tests mechanism/examples/robot_arm.yaml: the tool follows its circle, and the motors alone carry and move it."""
 
 import unittest
 
@@ -24,7 +24,7 @@ class RobotArm(ExampleTest):
         self.assertLess(np.abs(self.results.rows("supports/tool/reaction")[:, :3]).max(), 1e-6)
 
     def test_at_rest_the_motors_bear_the_weight(self):
-        # Positive about y turns the arm down; the links sag by some 1e-4 of their length.
+        # A positive rotation about y lowers the arm; the links sag by about 1e-4 of their length.
         elbow = -GRAVITY * 0.4 * (PAYLOAD + LOWER / 2)
         shoulder = -GRAVITY * (0.8 * PAYLOAD + 0.6 * LOWER + 0.2 * UPPER)
         for row in (0, -1):
@@ -34,7 +34,8 @@ class RobotArm(ExampleTest):
 
     def test_the_motors_do_no_work_in_all_but_some_on_the_way(self):
         work = self.results.rows("energy/input")
-        self.assertGreater(np.abs(work).max(), 2 * RADIUS * GRAVITY * PAYLOAD)  # the lift of the payload, and the links
+        # The work exceeds the potential energy of the payload, since the motors lift the links as well.
+        self.assertGreater(np.abs(work).max(), 2 * RADIUS * GRAVITY * PAYLOAD)
         self.assertAlmostEqual(work[-1], 0, delta=1e-3)
         self.assertLess(np.abs(self.results.rows("energy/balance")).max(), 1e-3 * np.abs(work).max())
 

@@ -1,4 +1,5 @@
-"""mechanism/examples/rotor.yaml: whirl frequencies over the speed, against Euler-Bernoulli elements and a gyroscopic disc."""
+"""Compares whirl frequencies of mechanism/examples/rotor.yaml over the speed with Euler-Bernoulli elements and a
+gyroscopic disc."""
 
 import os
 import subprocess
@@ -22,7 +23,7 @@ RADIUS, THICKNESS = 0.25, 0.02
 
 
 def bending(stiffness, mass, elements=20):
-    """K and M of a clamped cantilever of cubic elements: displacement and slope of each node but the first."""
+    """Returns K and M of a cantilever of cubic elements, over displacement and slope of each node except the first."""
     h = HEIGHT / elements
     k = stiffness / h**3 * np.array([[12, 6*h, -12, 6*h], [6*h, 4*h*h, -6*h, 2*h*h], [-12, -6*h, 12, -6*h], [6*h, 2*h*h, -6*h, 4*h*h]])
     m = mass * h / 420 * np.array([[156, 22*h, 54, -13*h], [22*h, 4*h*h, 13*h, -3*h*h], [54, 13*h, 156, -22*h], [-13*h, -3*h*h, -22*h, 4*h*h]])
@@ -34,7 +35,8 @@ def bending(stiffness, mass, elements=20):
 
 
 def whirl(speed):
-    """Frequencies [Hz] of bending in both planes, coupled by the disc: slopes a = x', b = y', tilts (-b, a)."""
+    """Returns the bending frequencies [Hz] in both planes, which the disc couples; with the slopes a = x' and b = y',
+    it tilts by (-b, a)."""
     disc = np.pi * RADIUS**2 * THICKNESS * DENSITY
     across, along = disc * (RADIUS**2 / 4 + THICKNESS**2 / 12), disc * RADIUS**2 / 2
     area = WIDTH_X * WIDTH_Y
@@ -44,7 +46,8 @@ def whirl(speed):
     for p, (k, m) in enumerate(planes):
         m[-2:, -2:] += disc * np.array([[1, ARM], [ARM, ARM**2]]) + np.array([[0, 0], [0, across]])
         K[p*n:(p+1)*n, p*n:(p+1)*n], M[p*n:(p+1)*n, p*n:(p+1)*n] = k, m
-    # Euler's equations of a disc that tilts by (-b, a): J_t a'' - J_p Om (-b)' ..., antisymmetric.
+    # Euler's equations of a disc that tilts by (-b, a) contain J_t a'' - J_p Om (-b)', and an antisymmetric
+    # counterpart.
     G[n-1, 2*n-1], G[2*n-1, n-1] = along * speed, -along * speed
     inverse = np.linalg.inv(M)
     A = np.block([[np.zeros_like(K), np.eye(2 * n)], [-inverse @ K, -inverse @ G]])
@@ -76,7 +79,7 @@ class Rotor(unittest.TestCase):
         for speed in (0, 30, 120):
             kinds, frequencies, ratios, summary = self.modes(speed)
             oscillating = [f for f, kind in zip(frequencies, kinds) if kind == "oscillating"][:5]
-            # Shear and axial motion are left out of the reference: 3e-3 in the sixth.
+            # The reference neglects shear, which changes the sixth frequency by 3e-3, and axial motion.
             np.testing.assert_allclose(oscillating, whirl(speed)[:5], rtol=3e-3, err_msg=str(speed))
             self.assertEqual(kinds[:2], ["rigid", "decaying"])  # the disc's angle, and its speed against the bearing
             self.assertTrue(np.all(ratios[2:] > 0))
@@ -106,10 +109,10 @@ class Rotor(unittest.TestCase):
             np.testing.assert_allclose(speeds, np.linspace(0, 120, 25), atol=1e-12)
             for speed, row in zip(speeds, frequencies):
                 np.testing.assert_allclose(np.sort(row), whirl(speed)[:5], rtol=3e-3)
-            # Each line is smooth: its second differences are small, unlike those of lines that jump.
+            # Each line is smooth: its second differences are small, unlike those of lines with jumps.
             self.assertLess(np.abs(np.diff(frequencies, 2, axis=0)).max(), 0.05 * np.abs(np.diff(frequencies, axis=0)).max() + 0.05)
             self.assertEqual(sorted(np.sign(senses[-1, :4])), [-1, -1, 1, 1])
-            # At a critical speed a frequency of the reference is the speed.
+            # At a critical speed, one frequency of the reference equals the speed.
             self.assertTrue(np.all(order == 1))
             for speed in critical:
                 self.assertLess(np.abs(2 * np.pi * whirl(speed) - speed).min(), 3e-3 * speed)
@@ -126,9 +129,9 @@ class Rotor(unittest.TestCase):
             disc = list(modes["nodes"].asstr()).index("disc")
             shapes = modes["displacement"][:, disc] @ [1, 1j]
             turns = modes["rotation"][:, disc] @ [1, 1j]
-        # Sense of rotation of x + i y: from the phase between the two.
+        # The phase between x and y gives the sense of rotation of x + i y.
         senses = [np.sign((turn[0].conjugate() * turn[1]).imag) for turn in turns[2:6]]
-        self.assertEqual(len(shapes), 9)  # the rigid one, and eight others
+        self.assertEqual(len(shapes), 9)  # the rigid rotation, and eight others
         self.assertEqual(sorted(senses), [-1, -1, 1, 1])
 
 

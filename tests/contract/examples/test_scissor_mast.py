@@ -1,4 +1,4 @@
-"""mechanism/examples/scissor_mast.yaml: its bays unfold alike, as the kinematics of rigid bars requires."""
+"""Tests that the bays of mechanism/examples/scissor_mast.yaml unfold equally, by the kinematics of rigid bars."""
 
 import os
 import subprocess
@@ -16,12 +16,12 @@ class ScissorMast(ExampleTest):
     model = "scissor_mast.yaml"
 
     def test_bays_are_rectangles_whose_diagonals_are_the_bars(self):
-        """width^2 + height^2 = bar^2, but for the bending of the bars."""
+        """width^2 + height^2 = bar^2, up to the bending of the bars."""
         for k in range(1, BAYS + 1):
             foot, head, far = (self.rows(f"nodes/bay_{k}.{node}/position") for node in ("a0", "b0", "b2"))
             diagonal = np.hypot(np.linalg.norm(head - foot, axis=1), np.linalg.norm(far - foot, axis=1))
             self.assertAlmostEqual(diagonal[0], BAR, delta=1e-12)
-            self.assertLess(np.abs(diagonal - BAR).max(), 0.05 * BAR)  # when the mast stops with its dish
+            self.assertLess(np.abs(diagonal - BAR).max(), 0.05 * BAR)  # at the stop of the mast with its dish
             self.assertLess(np.abs(diagonal - BAR).mean(), 0.01 * BAR)
 
     def test_it_comes_to_rest_where_the_springs_are_slack(self):

@@ -1,4 +1,4 @@
-"""mechanism/examples/servo.yaml: stands still, is lifted within the limit of its motor, and falls when it is
+"""Tests mechanism/examples/servo.yaml: the arm is at rest, is lifted within the limit of its motor, and falls when
 released."""
 
 import unittest

@@ -1,6 +1,6 @@
-"""mechanism/examples/slider_crank.yaml: runs, moves as a slider-crank must, and balances its energy.
+"""Tests mechanism/examples/slider_crank.yaml: it moves by the kinematics of a slider-crank, and its energy is balanced.
 
-The rod bends and stretches by well under a tenth of a millimetre or two: rigid kinematics hold within that.
+The rod deforms by less than 0.2 mm, and rigid kinematics hold within that.
 """
 
 import os
@@ -35,7 +35,7 @@ class SliderCrank(ExampleTest):
         self.assertLess(np.abs(piston[:, 1:]).max(), 1e-9)
 
     def test_a_rod_that_is_drawn_roughly_is_assembled_without_deforming(self):
-        """Drawn 10 mm and 10 degrees off, the flexible rod moves to its joints as a whole."""
+        """A flexible rod that is drawn 10 mm and 10 degrees off moves to its joints without deformation."""
         with open(os.path.join(self.folder, "slider_crank.yaml")) as file:
             text = file.read()
         bent = "rotation_vector: [0, 0, 0.17]"
@@ -62,7 +62,7 @@ class SliderCrank(ExampleTest):
         results.file.close()
 
     def test_gas_and_inertia_load_the_wrist_as_a_piston_on_its_own(self):
-        """Along the cylinder: m a = gas + wrist force; the guide's friction-free wall gives nothing along it."""
+        """Along the cylinder, m a = gas force + wrist force, since the guide has no friction."""
         rows = self.time > RUN_UP
         acceleration = self.results.rows("nodes/piston/acceleration")[rows, 0]
         t = self.time[rows]

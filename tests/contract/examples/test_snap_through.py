@@ -1,6 +1,7 @@
-"""mechanism/examples/snap_through.yaml: Lee's frame passes both of its limit loads.
+"""Tests that Lee's frame in mechanism/examples/snap_through.yaml passes both limit loads.
 
-Reference: Reissner's rod (shear factor 5/6) by shooting in long double with pseudo-arclength continuation, to 1e-9.
+The reference is Reissner's rod (shear factor 5/6) by shooting in long double with pseudo-arclength continuation,
+accurate to 1e-9.
 """
 
 import os
@@ -34,7 +35,7 @@ class SnapThrough(unittest.TestCase):
         np.testing.assert_allclose(moved[first], [0.268783276643, -0.487542403802, 0], atol=1e-4)
         self.assertAlmostEqual(load[first], limits[0], places=4)
         self.assertAlmostEqual(moved[-1, 1], -0.9, places=11)
-        self.assertLess(np.abs(moved[:, 2]).max(), 1e-9)  # nothing pushes it out of its plane
+        self.assertLess(np.abs(moved[:, 2]).max(), 1e-9)  # no force acts out of the plane
 
     def test_load_steps_alone_end_at_the_first_limit_load(self):
         with tempfile.TemporaryDirectory() as folder:

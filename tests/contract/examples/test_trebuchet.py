@@ -1,4 +1,5 @@
-"""mechanism/examples/trebuchet.yaml: its axle knocks within its play, its sling pulls, and the stone flies in a plane."""
+"""Tests mechanism/examples/trebuchet.yaml: the axle hits the limits of its play, the sling pulls, and the stone flies
+in a plane."""
 
 import unittest
 
@@ -34,7 +35,7 @@ class Trebuchet(ExampleTest):
         self.assertGreater(height[-1], 5)
         place = self.flight.rows("nodes/stone/position")[-1]
         self.assertAlmostEqual(place[2], 0.12, delta=1e-6)
-        # The range is less than that for all the energy of the weight, which sinks by less than twice the short arm.
+        # The range is below that for the whole energy of the weight, which sinks by less than twice the short arm.
         self.assertTrue(200 < place[0] < 2 * 2500 / 20 * 2)
 
     def test_energy_balance_closes(self):

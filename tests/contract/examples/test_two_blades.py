@@ -1,4 +1,5 @@
-"""mechanism/examples/two_blades.yaml: Floquet exponents of a rotor with two blades under gravity, against an integration over a turn."""
+"""Compares Floquet exponents of mechanism/examples/two_blades.yaml, a rotor with two blades under gravity, with an
+integration over one turn."""
 
 import os
 import subprocess
@@ -23,7 +24,7 @@ class TwoBlades(ExampleTest):
                 self.assertGreater(abs(one.real - other.real), 1e-3)
 
     def test_a_resonance_that_is_locked_to_the_rotation_grows(self):
-        # Real exponents: the support moves at the rate of the rotation, with equal harmonics on both sides.
+        # The exponents are real: the support moves at the rate of the rotation, with equal harmonics on both sides.
         target, rate = os.path.join(self.folder, "resonant.h5"), 12
         model = os.path.join(EXAMPLES, self.model)
         subprocess.run([PROGRAM, model, "--set", f"rate={rate}", "-o", target, "--quiet"], check=True, timeout=100)
@@ -35,7 +36,7 @@ class TwoBlades(ExampleTest):
         self.assertEqual(sum(value.real > 0 for value in found), 1)
 
     def test_gravity_matters(self):
-        # Without it the motion is steady, and the second exponent decays by another rate.
+        # Without gravity the motion is steady, and the decay rate of the second exponent differs.
         target = os.path.join(self.folder, "weightless.h5")
         model = os.path.join(self.folder, "weightless.yaml")
         with open(os.path.join(EXAMPLES, self.model), encoding="utf-8") as file:

@@ -1,4 +1,5 @@
-"""mechanism/examples/weak_instability.yaml: Newmark's constraint forces grow by exp(2 pi) per revolution, HHT's do not."""
+"""Tests mechanism/examples/weak_instability.yaml: errors of constraint forces grow by exp(2 pi) per revolution with
+Newmark's scheme, but not with HHT's."""
 
 import os
 import subprocess
@@ -23,7 +24,7 @@ class WeakInstability(unittest.TestCase):
         self.folder = self._folder.name
 
     def run_with(self, name, *settings):
-        """Largest error of the force and of the radius in each revolution."""
+        """Returns the largest errors of force and radius in each revolution."""
         target = os.path.join(self.folder, name)
         subprocess.run([PROGRAM, os.path.join(EXAMPLES, "weak_instability.yaml"), "-o", target, "--quiet", *settings],
                        check=True, timeout=120)
@@ -40,10 +41,10 @@ class WeakInstability(unittest.TestCase):
         _, finer, _ = self.run_with("finer.h5", "--set", "h=0.005")
         for errors in (sick, finer):
             for k in range(3):
-                # Envelopes by whole revolutions; the nonlinear end of the last one may be off.
+                # The envelopes are taken over whole revolutions; the nonlinear end of the last one may deviate.
                 self.assertAlmostEqual(np.log(errors[k + 1] / errors[k]), 2 * np.pi, delta=0.1)
-        self.assertLess(off, 1e-9)  # the motion looks right
-        # (omega h)^2 = 4e-3 of 39.5 N is 0.16 N: the scheme's error, not growing.
+        self.assertLess(off, 1e-9)  # the motion itself has a small error
+        # The error of the scheme is (omega h)^2 = 4e-3 of 39.5 N, 0.16 N, and does not grow.
         self.assertLess(max(well), 0.16)
         self.assertLess(well[3], 2 * well[0])
         figure = os.path.join(self.folder, "figure.png")

@@ -1,4 +1,4 @@
-"""mechanism/examples/winch.yaml: its lever winds up whole teeth, and its ratchet holds them."""
+"""Tests mechanism/examples/winch.yaml: the lever winds whole teeth, and the ratchet holds them."""
 
 import unittest
 
@@ -7,7 +7,7 @@ import numpy as np
 from example import ExampleTest
 
 PITCH = 2 * np.pi / 30
-PERIOD = 2 * np.pi / 3  # [s] of the crank; its speed grows over the first 0.2 s
+PERIOD = 2 * np.pi / 3  # time of a turn of the crank, whose speed rises during the first 0.2 s [s]
 G, LOAD, RADIUS = 9.81, 100, 0.15
 
 

@@ -1,4 +1,5 @@
-"""mechanism/examples/wind_turbine.yaml: three blades from one, at the speed of the motor, held by their bearings."""
+"""Tests mechanism/examples/wind_turbine.yaml: three copies of one blade rotate at the speed of the motor, and their
+bearings hold them."""
 
 import math
 import unittest
@@ -11,7 +12,7 @@ SPEED, ROOT, TIP, DENSITY = math.pi, 1.5, 20, 1900
 
 
 def area(s):
-    """Area of the box, whose sizes change linearly along the blade."""
+    """Returns the area of the box section, whose dimensions vary linearly along the blade."""
     width, height, wall = 1.6 - 1.1 * s, 0.45 - 0.35 * s, 0.02 - 0.014 * s
     return width * height - (width - 2 * wall) * (height - 2 * wall)
 
@@ -22,14 +23,14 @@ class WindTurbine(ExampleTest):
     def test_blades_stand_at_a_third_of_a_turn(self):
         start = [self.rows(f"nodes/blade_{k}.tip/position")[0] for k in (1, 2, 3)]
         angles = sorted(math.atan2(-place[1], place[2]) for place in start)
-        np.testing.assert_allclose(np.diff(angles), 2 * math.pi / 3, atol=5e-3)  # they bend under their weight
+        np.testing.assert_allclose(np.diff(angles), 2 * math.pi / 3, atol=5e-3)  # the blades bend under their weight
 
     def test_the_motor_brings_it_to_speed(self):
         rate = self.rows("joints/shaft/rate")
         np.testing.assert_allclose(rate[self.time > 6], SPEED, rtol=1e-9)
 
     def test_bearings_carry_the_centrifugal_forces(self):
-        """Momentum along a blade, on average over a turn: the integral of rho A omega^2 r."""
+        """The mean force along a blade over one turn is the integral of rho A omega^2 r."""
         s = (np.arange(4000) + 0.5) / 4000
         r = ROOT + (TIP - ROOT) * s
         expected = DENSITY * SPEED ** 2 * np.mean(area(s) * r) * (TIP - ROOT)

@@ -1,4 +1,5 @@
-"""mechanism/examples/wind_turbine_modes.yaml: a tower against Rayleigh's quotient, its critical speeds, and finer beams."""
+"""Compares mechanism/examples/wind_turbine_modes.yaml with Rayleigh's quotient of the tower, with its critical speeds,
+and with finer beams."""
 
 import math
 import os
@@ -16,7 +17,7 @@ BLADE_DENSITY, ROOT, TIP = 1900, 1.5, 20
 
 
 def blade():
-    """Mass of a blade, and its second moment of mass about the axis of the shaft."""
+    """Returns the mass of a blade, and its moment of inertia about the axis of the shaft."""
     s = (np.arange(4000) + 0.5) / 4000
     width, height, wall = 1.6 - 1.1 * s, 0.45 - 0.35 * s, 0.02 - 0.014 * s
     line = BLADE_DENSITY * (width * height - (width - 2 * wall) * (height - 2 * wall))
@@ -25,14 +26,15 @@ def blade():
 
 
 def tower_sideways():
-    """Frequency [Hz] across the shaft at rest: Rayleigh's quotient with the deflection by a force at the top.
+    """Returns the frequency [Hz] of the tower across the shaft at rest by Rayleigh's quotient, with the deflection by a
+    force at the top.
 
-    The shaft turns freely: the rotor does not resist the tilt of the tower's top about the shaft.
+    The shaft turns freely, so that the rotor does not resist a rotation of the tower's top about the shaft.
     """
     inertia, area = math.pi / 4 * (OUTER ** 4 - INNER ** 4), math.pi * (OUTER ** 2 - INNER ** 2)
     z = (np.arange(4000) + 0.5) / 4000
     shape = (3 * z ** 2 - z ** 3) / 2
-    tilt = 1.5 / LENGTH  # rotation of the top for a displacement of one
+    tilt = 1.5 / LENGTH  # rotation of the top for a unit displacement
     moved = 1 + tilt * ARM
     kinetic = DENSITY * area * LENGTH * np.mean(shape ** 2) + (7000 + 2000 + 3 * blade()[0]) * moved ** 2
     kinetic += 7000 / 12 * (2 ** 2 + 2 ** 2) * tilt ** 2
@@ -49,7 +51,7 @@ class WindTurbineModes(ExampleTest):
         self.critical = {key: found[f"critical_{key}"][:] for key in ("speed", "frequency", "order", "mode")}
 
     def test_the_tower_at_rest_has_rayleighs_frequency(self):
-        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it by (0.88/5.4)^2 of their part of it.
+        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower their share of it by (0.88/5.4)^2.
         self.assertEqual(self.speed[0], 0)
         expected = tower_sideways()
         nearest = self.frequency[0][np.argmin(np.abs(self.frequency[0] - expected))]
@@ -74,7 +76,7 @@ class WindTurbineModes(ExampleTest):
             self.assertAlmostEqual(order * speed / (2 * math.pi * frequency), 1, delta=1e-6)
             line = self.frequency[:, int(mode) - 1]
             self.assertAlmostEqual(np.interp(speed, self.speed, line) / frequency, 1, delta=0.02)
-        # The tower hardly changes with the speed: 3P meets it at a third of the speed at which 1P does.
+        # The frequency of the tower hardly depends on the speed, so that 3P crosses it at a third of the speed of 1P.
         tower = tower_sideways() * 2 * math.pi
         for order in (1, 3):
             speeds = self.critical["speed"][self.critical["order"] == order]
@@ -82,7 +84,8 @@ class WindTurbineModes(ExampleTest):
 
 
 class Convergence(unittest.TestCase):
-    """Frequencies at 6 rad/s with 1, 2 and 4 times as many elements of blades and tower as the example has."""
+    """Returns the frequencies at 6 rad/s with 1, 2 and 4 times as many elements of blades and tower as in the
+    example."""
 
     @classmethod
     def setUpClass(cls):
@@ -106,7 +109,7 @@ class Convergence(unittest.TestCase):
             modes = results.file["/eigen"]
             cls.found.append(dict(zip(modes["name"].asstr(), modes["damped_frequency"][:])))
             results.file.close()
-        # The order is 4: the error of the finest beams is a fifteenth of their distance to the ones before.
+        # The order is 4, so that the error of the finest beams is a fifteenth of the difference from the previous ones.
         cls.limit = {name: fine + (fine - cls.found[1][name]) / 15 for name, fine in cls.found[2].items()}
 
     def test_the_modes_of_the_example_are_within_half_a_percent_of_the_limit(self):
@@ -119,7 +122,8 @@ class Convergence(unittest.TestCase):
                 self.assertAlmostEqual(frequency / self.limit[name], 1, delta=1e-2, msg=name)
 
     def test_fine_beams_have_constant_coefficients(self):
-        """Rounding of their stiffness is no coupling with further harmonics, of which up to 64 would be tried."""
+        """The rounding of their stiffness must not count as coupling with further harmonics, of which up to 64 would be
+        tried."""
         path = self.finest + ".more.yaml"
         with open(self.finest, encoding="utf-8") as file:
             text = file.read().replace("count: 8", "count: 16").replace("rate: 6", "rate: 5.3926")

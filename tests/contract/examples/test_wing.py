@@ -1,4 +1,4 @@
-"""mechanism/examples/wing.yaml: twist and bend under the lift, flutter, and the answer to a gust."""
+"""Tests mechanism/examples/wing.yaml: twist and bending under lift, flutter, and the response to a gust."""
 
 import os
 import subprocess
@@ -25,7 +25,7 @@ class Wing(ExampleTest):
         self.assert_gallery_checks("wing", {"wing": self.path, "slow": self.run_at(wing.SLOW), "fast": self.run_at(wing.FAST)})
 
     def test_the_twist_grows_faster_than_the_pressure(self):
-        # By the closed form, up to the divergence at 72.3 m/s.
+        # The twist is the closed form, up to the divergence at 72.3 m/s.
         for speed in (15, 45):
             with Results(self.run_at(speed), 1) as results:
                 twist = float(np.squeeze(results.rows("measures/twist"))[-1])

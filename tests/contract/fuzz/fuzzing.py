@@ -1,5 +1,5 @@
-"""Runs the programs on files that a seed has damaged. Whatever the file, a program ends by itself, with status 0, 1 or
-2, and reports the fault in a sentence written for it.
+"""Runs the programs on files that a seed has damaged. For any file, a program ends by itself with status 0, 1 or 2, and
+reports the error in a sentence written for it.
 
 BIELLE_FUZZ_SEED chooses the damage (default 0), BIELLE_FUZZ_CASES multiplies the number of cases (default 1), and
 BIELLE_FUZZ_PATIENCE the time that a program may take (default 1; sanitizers need more). A failure names the case, and
@@ -28,8 +28,8 @@ NEVER = ("unforeseen", "Traceback", "AddressSanitizer", "runtime error:", "termi
 
 
 def ended(run, processor_seconds=20, seconds=200):
-    """Tells whether a process ends within this much of its own time; on a busy machine that may take many times as
-    long."""
+    """Tells whether a process ends within this processor time; the elapsed time on a busy machine may be many times
+    longer."""
     clock = os.sysconf("SC_CLK_TCK")
     until = time.monotonic() + PATIENCE * seconds
     while time.monotonic() < until:
@@ -54,13 +54,13 @@ class FuzzTest(InFolder):
             return file.read()
 
     def cases(self, number):
-        """Numbers of cases with a source of random numbers for each: a case does not depend on the ones that ran
-        before."""
+        """Yields the numbers of cases, each with its own random generator, so that a case does not depend on previous
+        ones."""
         for case in range(math.ceil(number * TIMES)):
             yield case, random.Random(f"{SEED} {self.id().rsplit('.', 1)[1]} {case}")
 
     def judge(self, note, keep, program, *arguments):
-        """Runs a program; a run that takes long must be one that computes: it ends when it gets a signal."""
+        """Runs a program. A long run must be a valid computation, which ends at a signal."""
         with open(self.path("said"), "w+", encoding="utf-8", errors="replace") as errors_file:
             run = subprocess.Popen([os.path.join(PROGRAMS, program), *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=errors_file,

@@ -1,4 +1,4 @@
-"""Superelement files, and results files to go on from, with damaged bytes, structures and numbers."""
+"""Fuzz of superelement files, and of results files from which runs continue: damaged bytes, structures and numbers."""
 
 import re
 import shutil
@@ -81,7 +81,7 @@ def changed(rng, path):
 
 
 def near_structures(rng, data):
-    """Bytes close to the signatures of the structures that describe groups and texts."""
+    """The damage is close to the signatures of the structures that describe groups and texts."""
     data = bytearray(data)
     start = rng.choice([found.start() for found in re.finditer(rb"TREE|SNOD|HEAP|GCOL|OHDR|FRHP|FSHD|\x89HDF", data)])
     for _ in range(rng.choice([1, 1, 2, 4])):

@@ -1,4 +1,4 @@
-"""Mechanism files of several files, parts, repetitions and conditions with words exchanged, left out, doubled."""
+"""Fuzz of mechanism files with includes, parts, repetitions and conditions: words are exchanged, removed or doubled."""
 
 import os
 import subprocess
@@ -63,7 +63,7 @@ joints: {wrist: {type: hinge, nodes: [foot, hand], axis: [0, 1, 0]}}
 analysis: [{type: static}]
 """
 FILES = {"model.yaml": MODEL, "common.yaml": COMMON, "more.yaml": MORE, "arm.yaml": ARM}
-# Words that mean something here.
+# Words with a meaning in these files.
 WORDS = ["model.yaml", "common.yaml", "arm.yaml", ".", "/", "/dev/null", "none.yaml", "hub", "tip", "arm", "tool", "far", "arm_1",
          "arm_1.tip", "far.hand", '"{k}"', '"{"', '"}"', '"{k+1}"', '"{2.5}"', '"{zz}"', "{part: arm}", "{count: 2, as: k}", "k",
          "{over: [a, b], as: k}", "{count: 100000, as: k}", "{count: -1, as: k}", "3 m", "1 rpm", "{body: hub, at: [0, 0, 0]}",
@@ -95,7 +95,7 @@ class Language(FuzzTest):
             self.run_model(f"{case} {name} {note}", *rng.choice([[], [], ["--case", "slow"], ["--check"]]))
 
     def test_what_is_expanded_is_what_runs(self):
-        """The expanded text of a damaged model that is accepted is accepted as well, and nothing in it is expanded."""
+        """If a damaged model is accepted, its expanded text is accepted as well, and contains nothing to expand."""
         for case, rng in self.cases(20):
             text, note = mutated(rng, MODEL, WORDS)
             self.write_all({"model.yaml": text})

@@ -1,4 +1,4 @@
-"""Mesh files with numbers and lines exchanged, left out, doubled, and with damaged bytes."""
+"""Fuzz of mesh files: numbers and lines are exchanged, removed or doubled, and bytes damaged."""
 
 import os
 import unittest
@@ -25,7 +25,7 @@ FORMATS = {"box2.msh": {"file_format": "gmsh22", "binary": False}, "box4.msh": {
 
 
 def mutated(rng, data):
-    """One to three changes of numbers or lines."""
+    """Makes one to three changes of numbers or lines."""
     lines = data.split(b"\n")
     note = []
     for _ in range(rng.choice([1, 1, 2, 3])):
@@ -73,7 +73,7 @@ class Meshes(FuzzTest):
         names = ["box.unv", *FORMATS]
         for case, rng in self.cases(50):
             name = names[case % len(names)]
-            if name == "box.inp" and case % 2:  # each starts a converter, which takes a second
+            if name == "box.inp" and case % 2:  # each case starts a converter, which takes a second
                 name = "box2.msh"
             data, note = (mutated if rng.random() < 0.7 else damaged_bytes)(rng, self.read(name))
             bad = "bad" + os.path.splitext(name)[1]

@@ -1,4 +1,4 @@
-"""The tools on results and superelement files with damaged bytes, structures and numbers."""
+"""Fuzz of the tools with results and superelement files: damaged bytes, structures and numbers."""
 
 import copy
 import gc
@@ -32,7 +32,7 @@ ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png",
 
 
 def module_of(name):
-    """A tool as a module: it is imported once, and a process for each case is forked from here."""
+    """A tool as a module. It is imported once, and a process is forked for each case."""
     loader = importlib.machinery.SourceFileLoader(name.replace("-", "_"), os.path.join(TOOLS, name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
@@ -40,7 +40,7 @@ def module_of(name):
 
 
 def changed_item(rng, item):
-    """An item of a drawing, one in three with a value that does not fit or without it."""
+    """Returns an item of a drawing. One in three has a value that does not fit, or lacks it."""
     if rng.random() < 0.67:
         return item
     holder, key = item, rng.choice(sorted(set(item) - {"entry"}))
@@ -59,7 +59,7 @@ class Results(FuzzTest):
     def setUpClass(cls):
         cls.modules = {name: module_of(name) for name in ARGUMENTS}
         plot_style.plt.rcParams.update({"figure.dpi": 15, "savefig.dpi": 15, "figure.constrained_layout.use": False})
-        gc.freeze()  # collections in the processes of the cases do not copy the pages of what is imported
+        gc.freeze()  # prevents garbage collection in the forked processes from copying the pages of imported modules
 
     def setUp(self):
         super().setUp()
@@ -93,11 +93,11 @@ class Results(FuzzTest):
     def judge_tools(self, case, note, names=tuple(ARGUMENTS), more=()):
         note = f"{case} {note}"
         for name in names:
-            if name == "bielle-plot" and case % 3:  # takes ten times as long as the others
+            if name == "bielle-plot" and case % 3:  # this tool takes ten times as long as the others
                 continue
             status, said = self.run_tool(name, more if name != "bielle-plot" else ())
             sentences = [line for line in said.splitlines() if line.startswith(name + ": ")]
-            # A crash of the HDF5 library becomes a sentence in the process that waits for this one.
+            # The waiting process reports a crash of the HDF5 library in a sentence.
             fine = -status in messages.CRASHES or (status in (0, 1) and len(sentences) == status)
             fine = fine and not any(word in said for word in NEVER)
             if not fine and KEEP:

@@ -1,5 +1,5 @@
-"""Checkpoints without checksums, with other numbers in the state: a run judges the state that it continues number by
-number."""
+"""Fuzz of checkpoints without checksums, whose states have other numbers: a run checks each number of the state that it
+continues."""
 
 import shutil
 import unittest

@@ -1,5 +1,5 @@
-"""Files of studies and tables with words and numbers exchanged: bielle-study ends with a sentence, and its input files are not
-lost."""
+"""Fuzz of files of studies and tables with exchanged words and numbers: bielle-study ends with a sentence, and no input
+file is lost."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""Mechanism and body files with words and numbers exchanged, left out, doubled."""
+"""Fuzz of mechanism and body files: words and numbers are exchanged, removed or doubled."""
 
 import re
 import unittest
@@ -66,7 +66,7 @@ loads:
 recovery: {displacement: all, stress: surface}
 """
 
-# Numbers that do not make a valid model long: such models are not refused.
+# These numbers do not make a valid model slow, since such models are not refused.
 ODD = ["-1", "0", ".nan", "-.inf", "1e300", "-1e300", "1e-300", "1e999", "", '""', "banana", "[1, 2]", "[]", "{a: 1}", "{}",
        "true", "~", '"1/0"', '"sqrt(-1)"', '"2*zz"', '"5 mm"', "2.5", '"t"', "ground", '"/"', '"."', '"a\\0b"', "&a", "*a",
        "!!binary x", '"' + "(" * 300 + '"', "\t", "'", ",", ":", "[", "}", "\n", "#", "<<", "x" * 300,
@@ -74,7 +74,7 @@ ODD = ["-1", "0", ".nan", "-.inf", "1e300", "-1e300", "1e-300", "1e999", "", '""
 
 
 def mutated(rng, text, odd=None):
-    """One to three changes of words, each outside of the line with the size of the mesh. @param odd  words to put in"""
+    """Makes one to three changes of words, outside of the line with the mesh size. @param odd  words to insert"""
     note = []
     for _ in range(rng.choice([1, 1, 1, 2, 3])):
         lines = text.split("\n")

@@ -86,7 +86,8 @@ class Install(unittest.TestCase):
         steps, stop, restored = run(os.path.join(build, "pendulum"), cwd=build).splitlines()
         self.assertEqual(sorted(os.listdir(build)), before, "a session needs no file")
         self.check_pendulum(*PENDULUM.fullmatch(steps).groups())
-        # Half a period of 90 degrees, 2 K(sin 45) / omega_0, but for the last 0.04 rad, on the grid of steps.
+        # The time is half a period with an amplitude of 90 degrees, 2 K(sin 45) / omega_0, without the last 0.04 rad,
+        # rounded to steps.
         omega_squared = 1.5 * 9.81
         time = 2 * 1.8540747 / math.sqrt(omega_squared) - math.sqrt(2 * (math.pi - 3.1) / omega_squared)
         found = re.fullmatch(r"stopped at the other side after (\S+) s", stop).group(1)
@@ -95,7 +96,8 @@ class Install(unittest.TestCase):
 
     def check_pendulum(self, steps, angle, speed, kinetic, gravity):
         self.assertEqual(steps, "500")
-        # A rod of 1 m that falls from the horizontal: speed^2 = 3 g sin(angle) at its tip, and energy stays.
+        # The tip of a rod of 1 m that falls from the horizontal has speed^2 = 3 g sin(angle), by the conservation of
+        # energy.
         self.assertAlmostEqual(float(speed) ** 2, 3 * 9.81 * math.sin(float(angle)), delta=0.03)
         self.assertAlmostEqual(float(gravity), -9.81 * math.sin(float(angle)), delta=0.02)
         self.assertAlmostEqual(float(kinetic) + float(gravity), 0, delta=0.01)

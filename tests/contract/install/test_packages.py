@@ -1,5 +1,5 @@
-"""The Debian packages (`tools/package`): unpacked into an empty folder they hold the manual, the examples and their copyright,
-and a user who follows Getting started with them sees what its pages show.
+"""Tests of the Debian packages (`tools/package`). They are unpacked into an empty folder and must contain the manual,
+the examples and their copyright; the commands of Getting started must print what its pages show.
 
 The libraries and Debian's Python packages are those of the system; the programs, the tools and the Python package are those
 of the folder."""

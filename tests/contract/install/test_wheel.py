@@ -1,4 +1,5 @@
-"""The wheel of the Python package (`tools/package --wheel`): its contents, its record, and a model run from it."""
+"""Tests of the wheel of the Python package (`tools/package --wheel`): its contents, its record, and a run of a
+model."""
 
 import base64
 import csv

@@ -1,4 +1,4 @@
-"""Reductions of a bar, each test in a folder with its geometry."""
+"""Base class of tests that reduce a bar. Each test has a folder with the geometry."""
 
 from command import CommandTest
 

@@ -1,4 +1,4 @@
-"""Runs the built programs as a user does: exit status, standard output, standard error, in a folder of its own."""
+"""Runs the built programs as a user does, each test in its own folder: exit status, standard output, standard error."""
 
 import os
 import subprocess
@@ -18,7 +18,8 @@ class CommandTest(InFolder):
                               capture_output=True, stdin=subprocess.DEVNULL, timeout=timeout)
 
     def expect_refusal(self, status, *arguments, says=()):
-        """The program must end with the status and one line on standard error that contains every text of `says`."""
+        """Asserts that the program ends with the status, and with one line on standard error that contains every text
+        of `says`."""
         done = self.run_program(*arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         lines = [line for line in done.stderr.splitlines() if ": error: " in line]
@@ -29,7 +30,7 @@ class CommandTest(InFolder):
         return done
 
     def summary(self, model):
-        """Returns the output of the program for a model, given as text, which must run."""
+        """Returns the output of the program for the text of a model, which must run."""
         self.write("model.yaml", model)
         done = self.run_program("model.yaml")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,6 +1,7 @@
-"""IGES files of boxes along the axes, each a manifold solid (entity 186) between plane surfaces.
+"""Writes IGES files of boxes along the axes.
 
-(The Initial Graphics Exchange Specification 5.3, ANS US PRO/IPO-100-1996.)
+Each box is a manifold solid (entity 186) between plane surfaces (Initial Graphics Exchange Specification 5.3, ANS US
+PRO/IPO-100-1996).
 """
 
 import itertools
@@ -10,7 +11,7 @@ FACES = [((axis, side), [(axis + 1) % 3, (axis + 2) % 3]) for axis in range(3) f
 
 
 class _File:
-    """Entities: (type, form, whether others use it, parameters)."""
+    """Entities as (type, form, whether others use it, parameters)."""
 
     def __init__(self):
         self.entities = []
@@ -40,7 +41,7 @@ def _word(value):
 
 
 def _lines(words, width):
-    """Words with commas, and a semicolon at the end, in lines."""
+    """Returns lines of words with commas between them and a semicolon at the end."""
     lines = [""]
     for k, word in enumerate(words):
         word += ";" if k == len(words) - 1 else ","
@@ -60,7 +61,8 @@ def _add_box(file, low, high):
                                                   for word in (line, vertices, a + 1, vertices, b + 1)))
     faces = []
     for (axis, side), (u, v) in FACES:
-        ring = [[0, 0], [1, 0], [1, 1], [0, 1]]  # counterclockwise about the axis; reversed about the outward normal at the low side
+        # The ring is counterclockwise about the axis, and hence reversed about the outward normal at the low side.
+        ring = [[0, 0], [1, 0], [1, 1], [0, 1]]
         ring = ring if side else ring[::-1]
         numbers = [next(k for k, corner in enumerate(corners) if (corner[axis], corner[u], corner[v]) == (side, *at)) for at in ring]
         words = []
@@ -75,7 +77,7 @@ def _add_box(file, low, high):
 
 
 def iges_boxes(boxes, unit="mm"):
-    """The text of a file. @param boxes: pairs of opposite corners, the lower ones first"""
+    """Returns the text of a file. @param boxes  pairs of opposite corners, the lower ones first"""
     file = _File()
     for low, high in boxes:
         _add_box(file, low, high)

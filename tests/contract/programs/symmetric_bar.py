@@ -1,13 +1,16 @@
-"""A bar of square section whose mesh is as symmetric as the section: bending modes come in pairs of one frequency."""
+"""A bar of square section whose mesh is as symmetric as the section, so that bending modes are pairs of equal
+frequency."""
 
 import itertools
 
 
 def symmetric_bar(length_cells, half_cells, size=0.01):
-    """Text of a .msh: first-order tetrahedra, 2 `half_cells` across; surfaces `left` and `right` at the ends.
+    """Returns the text of a .msh file of first-order tetrahedra, 2 `half_cells` across, with surfaces `left` and
+    `right` at the ends.
 
-    Each brick is split along a diagonal that points away from the bar's axis, into the six tetrahedra of Kuhn: the mesh
-    is mirrored at both middle planes and, since those tetrahedra do not distinguish axes, at the diagonal ones.
+    Each brick is split into the six tetrahedra of Kuhn, along a diagonal that points away from the bar's axis. The mesh
+    is symmetric about both middle planes and, since those tetrahedra do not distinguish axes, about the diagonal
+    planes.
     """
     across, points, cells, faces = 2 * half_cells, {}, [], []
 

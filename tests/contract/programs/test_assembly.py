@@ -1,10 +1,11 @@
-"""Parts that are drawn roughly: kept parts, moved parts, loops that cannot close, and joints without a place."""
+"""Tests of the assembly of roughly drawn parts: kept parts, moved parts, loops that cannot close, and joints without a
+position."""
 
 import unittest
 
 from command import CommandTest
 
-# A four-bar whose links are drawn some centimetres and tens of degrees from where they fit.
+# The links of a four-bar are drawn some centimetres and tens of degrees off.
 BAR = """\
 gravity: [0, -9.81, 0]
 nodes:
@@ -25,7 +26,7 @@ analysis:
 """
 LAST = "second_axis: [[1, 0, 0], [1, 0, 0]]}\nanalysis"
 
-# Joints without a place.
+# Joints without a position.
 ARMS = """\
 gravity: [0, 0, -9.81]
 nodes: {a: {}, b: {position: [0.054, 0, 0]}, c: {position: [0.054, 0, 0]}, d: {position: [0.1, 0, 0]}}
@@ -78,7 +79,7 @@ class Assembly(CommandTest):
         model += "".join("  r%d: {type: rigid, nodes: [n%d, n%d]}\n" % (k, k, k + 1) for k in range(count - 1))
         text = self.output(model + "analysis: [{type: assembly}]\n")
         self.assertEqual(text.count("    node 'n"), 10)
-        # 12 m from the hinge: 24 sin(0.25)
+        # 24 sin(0.25) at 12 m from the hinge
         self.assertIn("node 'n12' by 5.94 m; largest rotation 0.5 rad\n    node 'n12': 5.94 m, 28.6 degrees\n", text)
         self.assertIn("\n    and 3 more nodes by less\n", text)
         self.assertIn("\n    angle of joint 'h': 0.5 rad (28.6 degrees), to 0.5 rad\n", text)

@@ -1,4 +1,4 @@
-"""States and controllers in the files of bielle-mechanism: rows, restarts, refusals and their messages."""
+"""Tests of states and controllers in the files of bielle-mechanism: rows, restarts, and messages of refusals."""
 
 import os
 import unittest
@@ -42,7 +42,7 @@ class Control(CommandTest):
             self.assertEqual(file["measures/plant.y2"].attrs["units"], "N")
             rate = file["joints/main/rate"][:count, 0]
             way = file["measures/way"][:count]
-            # The trapezoidal sum of the recorded rates, h^2/12 of their kinks.
+            # The path is the trapezoidal sum of the recorded rates, with errors of h^2/12 at their kinks.
             np.testing.assert_allclose(way[-1], np.sum(np.abs(rate[1:]) + np.abs(rate[:-1])) * 1e-3, rtol=1e-4)
             self.assertNotIn("states", file)
             torque = file["joints/main/drive_force"][:count, 0]

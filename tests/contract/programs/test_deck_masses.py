@@ -1,4 +1,5 @@
-"""`masses` out of a deck: CONM2 of Nastran, *MASS and *ROTARY INERTIA of Abaqus, on ties and on nodes of the solid."""
+"""Tests of `masses` from a deck: CONM2 of Nastran, *MASS and *ROTARY INERTIA of Abaqus, on ties and on nodes of the
+solid."""
 
 import os
 import sys
@@ -37,7 +38,7 @@ def skew(a):
 
 
 def rigid(mass, arm, inertia):
-    """The matrix of a rigid body at a node; its centre is at the arm from it."""
+    """Returns the mass matrix of a rigid body about a node. @param arm  position of the centre relative to the node"""
     return np.block([[mass * np.eye(3), -mass * skew(arm)], [mass * skew(arm), inertia - mass * skew(arm) @ skew(arm)]])
 
 
@@ -75,7 +76,7 @@ class DeckMasses(WithQuickTools, CommandTest):
         expected = bare[0].copy()
         expected[:6, :6] += matrix
         scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
-        # Modes are the same, as the interfaces are held in them; their signs may not be.
+        # The modes are the same, since they hold the interfaces; their signs may differ.
         self.assertLess((abs(abs(loaded[0]) - abs(expected)) / scale).max(), 1e-9)
         self.assertLess((abs(loaded[0] - expected) / scale)[:12, :12].max(), 1e-10)
         self.assertAlmostEqual(loaded[1] - bare[1], matrix[0, 0], delta=1e-9 * loaded[1])
@@ -112,7 +113,7 @@ class DeckMasses(WithQuickTools, CommandTest):
         self.assertAlmostEqual(self.reduced("coupling END", "masses: from_file", "inp")[1] - bare[1], 8, delta=1e-9)
 
     def test_units_of_the_deck(self):
-        tiny = "CONM2,1,9001,,2.5-9,.1,.2,.3\n+,4.-9,1.-9,5.-9,-.5-9,.25-9,6.-9\n"  # the body has 1e-7 kg
+        tiny = "CONM2,1,9001,,2.5-9,.1,.2,.3\n+,4.-9,1.-9,5.-9,-.5-9,.25-9,6.-9\n"  # the mass of the body is 1e-7 kg
         self.nastran(self.rbe2() + tiny)
         bare = self.reduced("RBE2 12", "length_unit: mm", length=0.6e-3)
         loaded = self.reduced("RBE2 12", "length_unit: mm\nmass_unit: t\nmasses: from_file", length=0.6e-3)

@@ -1,4 +1,5 @@
-"""`materials: from_file`: the materials of Nastran and Abaqus files, in their units, are those of a body file in SI units."""
+"""Tests of `materials: from_file`: the materials of Nastran and Abaqus files, in their units, equal those of a body
+file in SI units."""
 
 import os
 import sys
@@ -26,7 +27,7 @@ WOOD_IN_MM = "12000., 1000., 500., 0.4, 0.3, 0.35, 800., 700.,\n100.\n"
 
 
 def elasticity():
-    """Stiffness of the wood, xx yy zz yz xz xy [Pa]."""
+    """Returns the stiffness of the wood in the order xx yy zz yz xz xy [Pa]."""
     compliance = np.diag([1 / 12e9, 1 / 1e9, 1 / 0.5e9, 1 / 0.1e9, 1 / 0.7e9, 1 / 0.8e9])
     for i, j, nu, young in ((0, 1, 0.4, 12e9), (0, 2, 0.3, 12e9), (1, 2, 0.35, 1e9)):
         compliance[i, j] = compliance[j, i] = -nu / young

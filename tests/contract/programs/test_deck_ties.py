@@ -1,4 +1,5 @@
-"""`from` of an interface: ties of Nastran, Abaqus and CalculiX decks are those that the body file could spell out."""
+"""Tests of `from` of an interface: ties of Nastran, Abaqus and CalculiX decks equal those that a body file spells
+out."""
 
 import json
 import os
@@ -60,7 +61,7 @@ class DeckTies(WithQuickTools, CommandTest):
         self.write("bar.inp", (box or self.box).abaqus("*NODE\n9001, -0.02, 0.11, 0.04\n" + extra))
 
     def reduced(self, text):
-        """Stiffness, mass and the position of the first interface."""
+        """Returns stiffness, mass and the position of the first interface."""
         self.write("body.yaml", text)
         done = self.run_program("body.yaml", "-o", "body.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -83,7 +84,7 @@ class DeckTies(WithQuickTools, CommandTest):
     def test_an_rbe2_is_a_rigid_tie_of_its_surface(self):
         for order in (1, 2):
             box = cell_decks.Box(("hexahedron", "wedge", "wedge"), order)
-            text = box.nastran()  # makes the mid-side nodes
+            text = box.nastran()  # creates the mid-side nodes
             self.assertTrue(text)
             self.nastran(NODE + rbe2(box.left(), "123"), box)
             told = self.reduced(body(f"{{surface: {LEFT}, position: {AT}}}"))
@@ -104,7 +105,8 @@ class DeckTies(WithQuickTools, CommandTest):
         self.expect_equal(self.reduced(body("{from: RBE2 12}")), told, 1e-12)
 
     def tributary(self):
-        """Areas of the side x = 0 about its nodes: each rectangle gives a quarter to its corners."""
+        """The weights are the areas around the nodes of the side x = 0: each rectangle adds a quarter to each
+        corner."""
         y, z = (np.unique([self.box.points[k][i] for k in self.left]) for i in (1, 2))
         widths = [dict(zip(v, (np.diff(v, prepend=v[0]) + np.diff(v, append=v[-1])) / 2)) for v in (y, z)]
         return {k: widths[0][self.box.points[k][1]] * widths[1][self.box.points[k][2]] for k in self.left}
@@ -115,7 +117,8 @@ class DeckTies(WithQuickTools, CommandTest):
         centre = sum(areas[k] * self.box.points[k] for k in areas) / sum(areas.values())
         node = cell_decks.card("free", "GRID", 9001, "", *(f"{x:.15g}" for x in centre))
         self.nastran(node + rbe3([(area, 123, [k]) for k, area in areas.items()], refc=123))
-        # Translations of the centroid: rotations differ, as weights at nodes are not the integral over the faces between.
+        # Only translations of the centroid are equal. Rotations differ, since weights at nodes are not the integral
+        # over faces.
         told = self.reduced(body(f"{{surface: {LEFT}, tie: average, directions: [x, y, z]}}"))
         self.expect_equal(self.reduced(body("{from: RBE3 6002}")), told, 1e-10)
 
@@ -144,7 +147,8 @@ class DeckTies(WithQuickTools, CommandTest):
     def test_turned_systems_and_inches(self):
         box = cell_decks.Box(("hexahedron",) * 3, 1)
         box.points = [point / 0.0254 for point in box.points]
-        # System 5 stands at (1, 2, 3) in with its z axis along x and its x axis along y; 6 turns displacements about z.
+        # System 5 is at (1, 2, 3) in with its z axis along x and its x axis along y; system 6 rotates displacements
+        # about z.
         at = np.array([-0.02, 0.11, 0.04]) / 0.0254 - [1, 2, 3]
         cards = ("CORD2R,5,,1.,2.,3.,2.,2.,3.\n+,1.,3.,3.\nCORD2R,6,,0.,0.,0.,0.,0.,1.\n+,.6,.8,0.\n"
                  + cell_decks.card("free", "GRID", 9001, 5, f"{at[1]:.15g}", f"{at[2]:.15g}", f"{at[0]:.15g}", 6))
@@ -155,12 +159,13 @@ class DeckTies(WithQuickTools, CommandTest):
                           self.reduced(body(told, more="length_unit: in\n")), 1e-9)  # nine digits of coordinates in the deck
 
     def test_cylindrical_displacements_have_the_local_axes(self):
-        # A system about z through the origin: at (-0.02, 0.11) its radial direction is along this vector.
+        # The system is cylindrical about z through the origin; its radial direction at (-0.02, 0.11) is along this
+        # vector.
         radial = np.array([-0.02, 0.11, 0]) / np.hypot(0.02, 0.11)
         self.nastran("CORD2C,7,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.\nGRID,9001,,-0.02,0.11,0.04,7\n" + rbe2(self.left))
         axes = f"axes: {{x: [{radial[0]:.16g}, {radial[1]:.16g}, 0], y: [{-radial[1]:.16g}, {radial[0]:.16g}, 0]}}"
         self.expect_equal(self.reduced(body("{from: RBE2 12}")), self.reduced(body(f"{{surface: {LEFT}, position: {AT}, {axes}}}")), 1e-12)
-        # Spherical about the origin: its first direction is away from it.
+        # The system is spherical about the origin, and its first direction points away from it.
         away = np.array([-0.02, 0.11, 0.04]) / np.linalg.norm([-0.02, 0.11, 0.04])
         down = np.cross(np.cross(away, [0, 0, 1]) / np.linalg.norm(np.cross(away, [0, 0, 1])), away) * -1
         self.nastran("CORD2S,7,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.\nGRID,9001,,-0.02,0.11,0.04,7\n" + rbe2(self.left))
@@ -198,7 +203,8 @@ class DeckTies(WithQuickTools, CommandTest):
                     "*COUPLING, CONSTRAINT NAME=E, REF NODE=9001, SURFACE=S, ORIENTATION=O\n*DISTRIBUTING\n1, 4\n")
         told = f"{{surface: S, tie: average, position: {AT}, axes: {{x: [0.6, 0.8, 0], y: [-0.8, 0.6, 0]}}, directions: [x, y, z, rx]}}"
         self.expect_equal(self.reduced(body("{from: coupling E}", "inp")), self.reduced(body(told, "inp")), 1e-12)
-        # 90 degrees about its third axis turn the first one to (-.8, .6); a *TRANSFORM of the node gives way to the orientation.
+        # A rotation of 90 degrees about its third axis turns the first one to (-.8, .6). The orientation overrides a
+        # *TRANSFORM of the node.
         self.abaqus(self.box.surface("S") + "*ORIENTATION, NAME=O\n.6, .8, 0., -.8, .6, 0.\n3, 90.\n"
                     "*NSET, NSET=R\n9001\n*TRANSFORM, NSET=R\n0., 1., 0., 0., 0., 1.\n"
                     "*COUPLING, CONSTRAINT NAME=E, REF NODE=R, SURFACE=S, ORIENTATION=O\n*KINEMATIC\n")
@@ -220,7 +226,7 @@ class DeckTies(WithQuickTools, CommandTest):
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian package calculix-ccx)")
     def test_calculix_moves_a_rigid_body_alike(self):
         box = cell_decks.Box(("hexahedron",) * 3, 2)
-        box.nastran()  # makes the mid-side nodes
+        box.nastran()  # creates the mid-side nodes
         sides = "".join(f"*NSET, NSET={name}\n" + "".join(f"{k}\n" for k, x in enumerate(box.points, 1) if abs(x[0] - at) < 1e-9)
                         for name, at in (("LEFT", 0), ("RIGHT", 0.6)))
         force = np.array([3e3, 2e3, -1e3])
@@ -305,7 +311,7 @@ class DeckTies(WithQuickTools, CommandTest):
             self.refuse(*([says] if says else ["RBE3 6002", "did you mean 'RBE3 0'"]))
         self.nastran(NODE + rbe3([(1, 123, [777776])]))
         self.refuse("RBE3 6002 names the node 777777, which does not exist")
-        self.nastran(NODE + "RBE2,12,9001,123456,1,THRU,700000000\n")  # no list of that length is made
+        self.nastran(NODE + "RBE2,12,9001,123456,1,THRU,700000000\n")  # no list of that length is created
         self.refuse("RBE2 12 names the node 37, which does not exist")
         self.nastran("GRID,9001,,0.,0.,0.,77\n" + good)
         self.refuse("coordinate system 77")
@@ -353,7 +359,7 @@ class DeckTies(WithQuickTools, CommandTest):
         self.assertEqual([mass.get("mass") for mass in masses], [2.5, 1, 1, 7, None])
         self.assertIn("no solid cell", masses[4]["refused"])
         np.testing.assert_allclose(masses[0]["position"], [0.08, 0.31, 0.34], atol=1e-15)
-        # I21 and its like are int x1 x2 dm, which the tensor has with a minus.
+        # Products of inertia such as I21 are int x1 x2 dm, which the tensor contains with a minus sign.
         np.testing.assert_allclose(masses[0]["inertia"], [[4, -1, .5], [-1, 5, -.25], [.5, -.25, 6]], atol=1e-15)
         np.testing.assert_allclose(masses[1]["position"], [-0.02 + 0.06, 0.11 + 0.08, 0.04], atol=1e-15)
         np.testing.assert_allclose(masses[1]["inertia"], TURN @ np.diag([4, 5, 6]) @ TURN.T, atol=1e-14)

@@ -1,5 +1,5 @@
-"""bielle-reduce-mpi: the result of several ranks equals that of one machine; its errors, and its end when a process
-ends."""
+"""Tests of bielle-reduce-mpi: the result of several ranks equals that of one machine; its errors, and its end if a
+process ends."""
 
 import os
 import shutil
@@ -20,7 +20,8 @@ PROGRAM = os.path.join(PROGRAMS, "bielle-reduce-mpi")
 WHY_NOT = ("bielle-reduce-mpi is not built" if not os.path.exists(PROGRAM) else
            "there is no mpirun" if not shutil.which("mpirun") else "")
 
-# Two ends of different kinds, a tie that lets the bar turn, loads and points with residual vectors, damping, masses.
+# The body has ends with different ties, one of which lets the bar rotate, loads and points with residual vectors,
+# damping and masses.
 RICH = BODY.replace("left: {surface: left, tie: rigid}", "left: {surface: left, tie: rigid, directions: [x, y, z, rx, rz]}").replace(
     "right: {surface: right, tie: rigid}", "right: {surface: right, tie: average}") + """\
 damping: {ratio: [0.01, 0.02]}
@@ -45,7 +46,7 @@ modes: {count: COUNT}
 
 
 def descendants(pid):
-    """Processes that a process has started, and those that these have."""
+    """Returns the processes that a process has started, directly or indirectly."""
     found = []
     for name in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -75,20 +76,20 @@ class Distributed(CommandTest):
 
     def start(self, ranks, *arguments):
         environment = dict(os.environ, OMPI_MCA_rmaps_base_oversubscribe="1", OPENBLAS_NUM_THREADS="1",
-                           OMPI_MCA_mpi_yield_when_idle="1")  # ranks that wait leave the cores to others
+                           OMPI_MCA_mpi_yield_when_idle="1")  # waiting ranks yield the cores to others
         if os.geteuid() == 0:
             environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         return subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, *arguments], cwd=self.folder, env=environment, text=True,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def distribute(self, ranks, *arguments):
-        """Status and standard error."""
+        """Returns the status and the standard error."""
         run = self.start(ranks, *arguments)
         said = run.communicate(timeout=300)[1]
         return run.returncode, said
 
     def both(self, body, ranks=2):
-        """The files of one machine and of several ranks for a body."""
+        """Returns the files of one machine and of several ranks for a body."""
         self.write("body.yaml", body)
         alone = self.run_program("body.yaml", "-o", "alone.h5", "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
@@ -99,8 +100,8 @@ class Distributed(CommandTest):
         return values_in(self.path("alone.h5")), values_in(self.path("shared.h5"))
 
     def expect_same(self, alone, shared):
-        """The whole file except the checks, which are rounding errors. Signs of modes are unique: their largest
-        component is positive."""
+        """Compares the files except for the checks, which are rounding errors. Signs of modes are unique, since their
+        largest component is positive."""
         self.assertEqual(set(alone), set(shared))
         for name, values in alone.items():
             if "checks/" in name or name.endswith("checks"):
@@ -141,7 +142,7 @@ class Distributed(CommandTest):
         numpy.testing.assert_allclose(frequencies, alone["modes/frequencies"], rtol=1e-9)
         pairs = numpy.isclose(frequencies[1:], frequencies[:-1], rtol=1e-9)
         self.assertEqual(pairs.sum(), 3)
-        # Modes of a pair may be rotated: their products with the remaining mass and stiffness are not affected.
+        # Modes of a pair may be rotated, which does not affect their products with the remaining mass and stiffness.
         kept = len(shared["reduced/mass"]) - len(frequencies)
         for name in ("reduced/mass", "reduced/stiffness"):
             a, b = alone[name], shared[name]
@@ -175,7 +176,7 @@ class Distributed(CommandTest):
     def test_a_part_that_hangs_by_an_edge(self):
         mesh = symmetric_bar(8, 1)
         lines = mesh.split("\n")
-        # One more tetrahedron outside, which shares one edge of the bar's rim.
+        # One more tetrahedron is outside of the bar and shares one edge of its rim.
         count = lines.index("$Nodes") + 1
         total = int(lines[count])
         where = {line.split()[0]: numpy.array(line.split()[1:], float) for line in lines[count + 1:count + 1 + total]}

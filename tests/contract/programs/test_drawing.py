@@ -1,5 +1,5 @@
-"""The drawing in results files: its format in both layouts, after a failure, in continued runs, and of models that are
-only checked."""
+"""Tests of the drawing in results files: its format in both layouts, after a failure, in continued runs, and for models
+that are only checked."""
 
 import json
 import os
@@ -52,7 +52,7 @@ def model(shapes=True, layout="named", duration="0.1"):
 
 
 def stl(triangles):
-    """A binary STL file of a strip of triangles [mm]."""
+    """Returns a binary STL file of a strip of triangles [mm]."""
     k = np.arange(triangles, dtype=np.float32)
     corners = np.zeros((triangles, 12), dtype="<f4")
     corners[:, 3], corners[:, 6], corners[:, 9] = k, k + 1, k + 2
@@ -63,7 +63,7 @@ def stl(triangles):
 
 
 def numbers_of(path, group="analysis_1"):
-    """All numbers below a group of a results file by their paths."""
+    """Returns all numbers below a group of a results file by their paths."""
     found = {}
 
     def keep(name, item):
@@ -76,7 +76,7 @@ def numbers_of(path, group="analysis_1"):
 
 
 def matrix(q):
-    """The rotation matrix of a unit quaternion w x y z."""
+    """Returns the rotation matrix of a unit quaternion w x y z."""
     w, x, y, z = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -111,7 +111,7 @@ class Drawing(CommandTest):
         self.assertAlmostEqual(np.linalg.norm(place.get("rotation", [1, 0, 0, 0])), 1, 12)
 
     def check_format(self, name, nodes, inner):
-        """Checks all items of a drawing; returns them by entry and shape."""
+        """Checks all items of a drawing, and returns them by entry and shape."""
         drawing = self.drawing(name)
         self.assertEqual((drawing["format"], drawing["version"]), ("bielle drawing", 1))
         self.assertEqual(drawing["gravity"], [0, 0, -9.81])
@@ -150,7 +150,7 @@ class Drawing(CommandTest):
             self.assertEqual((box["colour"], box["opacity"]), ("#4682b4", 0.5))
             self.assertEqual((box["type"], box["node"]), ("rigid_body", "a"))
             np.testing.assert_allclose(box["rotation"], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)], atol=1e-15)
-            # One file in one unit is one mesh, whatever its colour.
+            # One file in one unit is one mesh, for any colours.
             meshes = [item["mesh"] for item in found["elements/a", "mesh"]]
             self.assertEqual(meshes, ["ring", "part", "part", "part_2"])
             with h5py.File(self.path("run.h5")) as f:
@@ -182,7 +182,7 @@ class Drawing(CommandTest):
             self.done("model.yaml", "--restart", "run.h5", "-o", output)
             found = self.check_format(output, {"a", "b", "tip"}, {"beam.1": ("elements/beam", 1)})
             self.assertIn(("elements/a", "box"), found)
-        # A file without a drawing, of an earlier version, gets one.
+        # A file of an earlier version, without a drawing, gets one.
         with h5py.File(self.path("run.h5"), "a") as f:
             del f["/drawing"], f["/drawing_meshes"]
         self.write("model.yaml", model(duration="0.3"))
@@ -305,7 +305,8 @@ Box(2) = {2000, 0, 0, 1000, 2000, 3000};
 
 
 def volume_inside(corners):
-    """Volume inside of closed surfaces of triangles (n, 3, 3) that are anticlockwise seen from outside."""
+    """Returns the volume inside closed surfaces of triangles (n, 3, 3), whose corners are anticlockwise as seen from
+    outside."""
     return np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
 
 
@@ -327,7 +328,7 @@ class Surface(CommandTest):
         corners = self.surface("two.geo", "--length-unit", "mm")
         box = corners[:, :, 0].min(axis=1) > 1
         self.assertAlmostEqual(volume_inside(corners[box]), 6, 4)
-        # A prism of n sides in place of the cylinder has sin(2 pi/n)/(2 pi/n) of its volume: 0.99 for 25 sides.
+        # A prism with n sides has sin(2 pi/n)/(2 pi/n) of the volume of the cylinder, 0.99 for 25 sides.
         ratio = volume_inside(corners[~box]) / (np.pi * 0.25 * 2)
         self.assertTrue(0.98 < ratio < 1, ratio)
 

@@ -1,4 +1,5 @@
-"""Events of bielle-mechanism: noted in the results file, ending runs, and the same across restarts."""
+"""Tests of events of bielle-mechanism: they are recorded in the results file, end runs, and are the same after
+restarts."""
 
 import math
 import os
@@ -11,7 +12,7 @@ import numpy as np
 from command import CommandTest
 from equal_runs import end_at_checkpoint, expect_equal_runs
 
-# An arm that falls on a stop again and again, with a flap that is locked for a time and clamped by a weak catch.
+# An arm falls on a stop repeatedly; its flap is locked for a time, and clamped by a weak catch.
 MODEL = """\
 gravity: [0, 0, -9.81]
 nodes:
@@ -33,7 +34,7 @@ analysis:
   - {type: dynamic, duration: DURATION, step: 1e-3}
 """
 
-# Actions: the catch opens and closes, a spring is let go and comes back, a force is set by formulas of events.
+# The catch opens and closes, a spring is released and activated, and formulas of events set a force.
 ACTIONS = """\
   again: {when: fast.count, crosses: 1.5, do: [{lock: tip}, {release: stay}, {set: {push: 2*fast.count}}]}
   later: {when: "t - again.time", crosses: 0.1, do: [{unlock: tip}, {activate: stay}, {set: {push: push - 1}}]}
@@ -42,7 +43,7 @@ loads: {wind: {node: flap, force: [0, 0, push]}}
 """
 
 
-# A valve that sticks at 0.3 from the beginning: its command alone would open it.
+# A valve sticks at 0.3 from the beginning, although its command would open it.
 VALVE = """\
 hydraulics:
   fluid: {density: 850, viscosity: 0.04, bulk_modulus: 1.4e9}
@@ -68,7 +69,7 @@ analysis: [{type: dynamic, duration: 0.1, step: 0.01}ANALYSIS]
 
 
 class Start(CommandTest):
-    """Events of values that are reached when a motion begins."""
+    """Tests of events whose values are reached when a motion begins."""
 
     program = "bielle-mechanism"
 
@@ -100,7 +101,7 @@ class Start(CommandTest):
                 self.assertEqual(times, [0] * expected)
 
     def test_it_occurs_at_each_later_crossing_and_at_the_start_of_each_motion(self):
-        _, times = self.ball(0.1, 0.25)  # rises first, and is back after 0.05 s
+        _, times = self.ball(0.1, 0.25)  # the value rises first, and returns after 0.05 s
         self.assertEqual(times[0], 0)
         self.assertAlmostEqual(times[1], 0.05, delta=1e-6)
         _, times = self.ball(0.05, analysis=", {type: dynamic, duration: 0.1, step: 0.01}")
@@ -115,7 +116,7 @@ class Start(CommandTest):
             self.assertIn("which stopped the run", text)
 
     def test_gears_close_at_the_start_with_an_impulse(self):
-        # 10 rad/s and rest become w and r w, with J_a (w - 10) + r J_b r w = 0.
+        # The rates 10 rad/s and 0 become w and r w, with J_a (w - 10) + r J_b r w = 0.
         text, times = self.times("""\
 nodes: {a: {angular_velocity: [0, 0, 10]}, b: {position: [1, 0, 0]}}
 elements:
@@ -161,7 +162,7 @@ class Events(CommandTest):
         return int(re.search(r"(\d+) rows recorded", done.stdout)[1])
 
     def test_a_restarted_run_equals_the_whole_one_events_and_all(self):
-        # Equality to the last bit requires the same checkpoints, since pivots are chosen anew there.
+        # Results are equal to the last bit only with the same checkpoints, since pivots are chosen again there.
         self.run_model("whole", 70, 1.2)
         with h5py.File(self.path("whole.h5")) as whole:
             events = whole["analysis_1/events/time"][:]
@@ -171,7 +172,7 @@ class Events(CommandTest):
         self.assertGreater(len(events), 8)
         self.assertTrue(np.all(np.diff(events) >= 0))
         self.assertIn("joint 'main': angle at its upper stop", names)
-        # Cut off after each of several checkpoints: before the lock, within, between contacts.
+        # The run ends after each of several checkpoints: before the lock, during it, between contacts.
         for keep in (1, 3, 8, 12, len(rows) - 1):
             end_at_checkpoint(self.path("whole.h5"), self.path("part.h5"), keep)
             self.assertEqual(self.run_model("part", 70, 1.2, "--restart", "part.h5"), recorded - rows[keep - 1])
@@ -186,7 +187,7 @@ class Events(CommandTest):
             met = [names[int(k)] for k in whole["analysis_1/events/crossing"][:]]
             self.assertEqual(met.count("event 'again': locks 'tip', releases 'stay', sets 'push' to 2*fast.count"), 1)
             self.assertEqual(met.count("event 'later': unlocks 'tip', activates 'stay', sets 'push' to push - 1"), 1)
-            # The rows show the force of the spring as zero between the two.
+            # The rows contain a zero force of the spring between the two events.
             time, force = whole["analysis_1/time"][:], whole["analysis_1/elements/stay/force"][:]
             events = dict(zip(met, whole["analysis_1/events/time"][:]))
             between = [moment for name, moment in events.items() if "'stay'" in name]
@@ -207,7 +208,7 @@ analysis: [{type: dynamic, duration: 5, step: 0.1}]
         self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(os.path.join(self.folder, "model.h5")) as results:
             self.assertEqual(results.attrs["complete"], 1)
-            landed = math.sqrt(0.7 / 5)  # exact for the scheme; located to 1e-10 of a step
+            landed = math.sqrt(0.7 / 5)  # exact for the scheme, and located to 1e-10 of a step
             self.assertAlmostEqual(results["analysis_1/time"][-1], landed, delta=2e-11)
             self.assertEqual(results["analysis_1/events/time"][:].tolist(), [results["analysis_1/time"][-1]])
             name = results["crossings"][()].decode().splitlines()[int(results["analysis_1/events/crossing"][0])]

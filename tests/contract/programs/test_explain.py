@@ -1,4 +1,4 @@
-"""--explain, the hint after an error on a terminal, and --version."""
+"""Tests of --explain, of the hint after an error on a terminal, and of --version."""
 
 import os
 import pty
@@ -22,7 +22,7 @@ class Explain(CommandTest):
         return subprocess.run([os.path.join(PROGRAMS, program), "--explain", *arguments], capture_output=True, text=True, timeout=60)
 
     def on_a_terminal(self, *arguments):
-        """The output of the program whose standard error is a terminal."""
+        """Returns the output of the program if its standard error is a terminal."""
         ours, theirs = pty.openpty()
         with subprocess.Popen([os.path.join(PROGRAMS, self.program), *arguments], stderr=theirs, stdout=subprocess.PIPE, cwd=self.folder) as process:
             os.close(theirs)

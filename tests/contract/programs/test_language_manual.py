@@ -1,4 +1,4 @@
-"""Every file of the pages about the language is run; expanded models give the same results as the files that they come from."""
+"""Runs every file on the pages about the language; expanded models must give the same results as the original files."""
 
 import os
 import re

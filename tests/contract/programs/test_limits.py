@@ -1,4 +1,5 @@
-"""Disks that are full from the start or become full, and address space that does not suffice: a sentence, never a hang."""
+"""Tests of full disks, of disks that become full, and of insufficient address space: a message must appear, and no run
+may hang."""
 
 import os
 import resource
@@ -50,8 +51,8 @@ class Limits(BarTest):
         status, said = self.run_limited("bielle-mechanism", {resource.RLIMIT_FSIZE: 300_000}, "model.yaml", "-o", "out.h5")
         self.assertEqual(status, 2, said)
         self.assertIn("is the disk full?", said)
-        # Beyond a limit of the size (other than on a full disk) HDF5 cannot extend the file to the end that it has noted,
-        # and often cannot open it afterwards: such a file is removed.
+        # At a limit of the file size, unlike on a full disk, HDF5 cannot extend the file to its recorded end, and often
+        # cannot open it afterwards. Such a file is removed.
         if os.path.exists(os.path.join(self.folder, "out.h5")):
             with h5py.File(os.path.join(self.folder, "out.h5")) as file:
                 self.assertEqual(file.attrs["complete"], 0)
@@ -62,7 +63,8 @@ class Limits(BarTest):
             for megabytes in (*share(range(200, 960, 50)), 1500, 4000):
                 with self.subTest(program=program, megabytes=megabytes):
                     status, said = self.run_limited(program, {resource.RLIMIT_AS: megabytes * MEGABYTE}, source, "-o", "out.h5")
-                    self.assertIn(status, (0, 2, 127), said)  # 127: of the loader, which has no room for the libraries
+                    # The loader ends with status 127 if the libraries do not fit.
+                    self.assertIn(status, (0, 2, 127), said)
                     if status:
                         self.assertRegex(said, "error", said)
                         self.assertNotIn("unforeseen", said)

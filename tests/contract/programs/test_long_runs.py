@@ -1,4 +1,4 @@
-"""Long runs of bielle-mechanism: killed, interrupted, continued, logged, and no larger at the end than at the start.
+"""Tests of long runs of bielle-mechanism: killed, interrupted, continued and logged ones, and constant memory.
 
 BIELLE_STEPS is the number of steps of the run whose memory is watched (default 40 000; the long test takes a million).
 """
@@ -43,8 +43,8 @@ class LongRuns(CommandTest):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def wait_for_checkpoints(self, run, count):
-        """Waits until the file of the running program counts this many checkpoints; any other program may read it at
-        any time."""
+        """Waits until the file of the running program has this number of checkpoints; other programs may read it at any
+        time."""
         until = time.monotonic() + 60
         while time.monotonic() < until and run.poll() is None:
             try:
@@ -71,7 +71,7 @@ class LongRuns(CommandTest):
             np.testing.assert_allclose(group["time"][:], 1e-3 * np.arange(rows), atol=1e-9)
             for name, dataset in datasets(group).items():
                 self.assertGreaterEqual(dataset.shape[0], rows, name)
-            # Every row is a valid state: the rod has its length, also in the last one.
+            # Every row is a valid state: the rod has its length, also in the last row.
             ends = group["nodes/upper/position"][:rows]
             np.testing.assert_allclose(np.linalg.norm(ends, axis=1), 0.5, atol=1e-9)
         done = self.run_program("model.yaml", "--restart", "model.h5")
@@ -139,7 +139,7 @@ class LongRuns(CommandTest):
         early = [size for rows, size in sizes if 0.1 * steps / 2 < rows < 0.4 * steps / 2]
         late = [size for rows, size in sizes if rows > 0.8 * steps / 2]
         self.assertTrue(early and late, sizes)
-        # Buffers of rows fill and empty (some MB); a leak of a thousandth of the written rows would exceed this bound.
+        # The buffers of rows vary by some MB; a leak of a thousandth of the written rows would exceed this bound.
         self.assertLess(np.median(late), np.median(early) + 4000, sizes)
 
 

@@ -1,4 +1,5 @@
-"""Forces, stresses, pressures and clearances in formulas: a torque, a spring and an event read each of them, and have the values that are recorded."""
+"""Tests of forces, stresses, pressures and clearances in formulas: a torque, a spring and an event read each of them,
+and must have the recorded values."""
 
 import os
 import subprocess
@@ -14,7 +15,7 @@ sys.path.insert(0, os.path.dirname(HERE))
 from in_folder import InFolder  # noqa: E402
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-# A rotor and a slider next to the machine, whose torque and spring read it.
+# A rotor and a slider are next to the machine; their torque and spring read its measure.
 READERS = """
   rotor: {{position: [0, 9, 0]}}
   slider: {{position: [1, 9, 0]}}

@@ -1,4 +1,4 @@
-"""The interface of bielle-mechanism: messages, exit statuses, and the files of a failed run."""
+"""Tests of the interface of bielle-mechanism: messages, exit statuses, and the files of a failed run."""
 
 import os
 import signal
@@ -73,7 +73,8 @@ class Mechanism(CommandTest):
         self.assertIn("manual", self.run_program("--help").stdout)
 
     def test_check_tells_the_mass_and_its_centre(self):
-        # 2 kg at x = 1 on a held node, 1 kg 0.5 m above (4, 0, 0), turned, and 3 kg of beam from x = 0 to 2.
+        # The masses are 2 kg at x = 1 on a held node, 1 kg in rotated axes 0.5 m above (4, 0, 0), and 3 kg of beam from
+        # x = 0 to 2.
         self.write("model.yaml", """\
 nodes:
   held: {position: [1, 0, 0], fixed: true}
@@ -179,7 +180,8 @@ joints: {j: {type: rigid, nodes: [b, free]}}
         self.assertIn("massless     7 inner nodes of 'beam'\n", done.stdout)
         self.assertNotIn("against one moment alone", done.stdout)
         self.assertEqual(done.stdout.count("massless"), 2)
-        # Beside the node line: pi/4 0.1^4 E = 1.5708e-4 of bending, which EIz about the line exceeds by far.
+        # The section is beside the node line: its own bending stiffness is pi/4 0.1^4 E = 1.5708e-4 E, far below EIz
+        # about the line.
         self.write("massless.yaml", "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, "
                    "nodes: [a, b], section: {circle: 0.1, young: 2, shear: 1, offset: [0.3, 0]}}}\n")
         done = self.run_program("massless.yaml", "--check")
@@ -221,7 +223,7 @@ analysis:
         self.expect_refusal(1, "model.yaml", says=["rod.h5", "99"])
 
     def test_a_run_that_fails_leaves_its_steps_readable_and_marked(self):
-        # A force that ends the arithmetic after half of the time.
+        # The force is not finite after half of the time.
         self.write("model.yaml", PENDULUM.replace(
             "analysis:", 'loads:\n  burst: {node: bob, force: ["1/(0.05-t)^9", 0, 0]}\nanalysis:'))
         self.expect_refusal(2, "model.yaml", says=["t = "])

@@ -1,4 +1,4 @@
-"""Mistakes of users of bielle-mechanism: units, degrees, jumps, duplicate names, unconnected parts."""
+"""Tests of mistakes of users of bielle-mechanism: units, degrees, jumps, duplicate names, unconnected parts."""
 
 import os
 import unittest
@@ -35,7 +35,7 @@ class Slips(CommandTest):
         return self.run_program("model.yaml")
 
     def warnings(self, model, old="", new=""):
-        """Warnings of a run that continues nevertheless."""
+        """Returns the warnings of a run that continues nevertheless."""
         done = self.run_changed(model, old, new)
         self.assertEqual(done.returncode, 0, done.stderr)
         return "\n".join(line for line in done.stderr.splitlines() if "warning: " in line)
@@ -53,7 +53,7 @@ class Slips(CommandTest):
         self.assertEqual(self.warnings(CRANK, '"0.5*t"', '"step(t, 0.002, 0.005)"'), "")
 
     def test_moduli_and_densities_in_other_units(self):
-        text = self.run_changed(BEAM, "210e9", "210e3").stderr  # sags so far that it fails, too
+        text = self.run_changed(BEAM, "210e9", "210e3").stderr  # the beam sags so far that the run fails as well
         self.assertIn("model.yaml:3: elements.m.section.young: is 210000 meant? Solids have 1e6", text)
         self.assertIn("steel has 210e9", text)
         self.assertIn("section.density: is 7.85e-09 meant?", self.warnings(BEAM, "7850", "7.85e-9"))
@@ -149,7 +149,7 @@ analysis: [{type: static}]
         text = self.warnings(BEAM.replace("type: static", "type: dynamic, duration: 0.01, step: 1e-3"), "a: {fixed: true}",
                            'a: {fixed: [y, z, rx, ry, rz], motion: {x: "1e-3*if(t < 0.005, 0, 1)"}}')
         self.assertIn("nodes.a.motion.x: the prescribed motion jumps by 0.001 at t = 0.005 s", text)
-        # A sine after a whole turn is zero but for rounding.
+        # A sine after a whole turn is zero up to rounding.
         self.assertNotIn("jumps", self.warnings(CRANK, '"0.5*t"', '"0.5*sin(2*pi*step(t, 0.001, 0.004))"'))
 
     def test_steps_without_end(self):
@@ -178,7 +178,7 @@ analysis: [{type: static}]
         self.refuse(beam, "1e300", "-1e300", "elements.m.distributed.force[3]: formula '-1e300': -1e+300 is larger")
 
     def test_inertias_and_masses_in_other_units(self):
-        # A steel bar of 1 kg and 0.1 m: 8.3e-4 kg m^2.
+        # A steel bar of 1 kg and 0.1 m has 8.3e-4 kg m^2.
         self.assertIn("model.yaml:6: elements.c.inertia: is this meant? 1 kg with so much inertia reaches over some 101 m; "
                       "inertias are in kg m^2", self.warnings(CRANK, "[0.1, 0.1, 0.1]", "[10, 833, 833]"))
         self.assertEqual(self.warnings(CRANK, "[0.1, 0.1, 0.1]", "[1e-5, 8.3e-4, 8.3e-4]"), "")
@@ -206,13 +206,13 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
         self.assertIn("model.yaml:4: elements.c: its joints are 100 m apart, and its inertia is that of a body of 0.1 m: is that "
                       "meant? Positions are in metres", self.warnings(lengths(50)))
         self.assertEqual(self.warnings(lengths(0.05)), "")
-        # One body of usual proportions shows that the model is as intended.
+        # One body of usual proportions suppresses the warning.
         self.assertEqual(self.warnings(lengths(50), "mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}\n  d",
                                      "mass: 1000, inertia: [1, 8e5, 8e5]}\n  d"), "")
 
     def test_no_example_is_warned(self):
         folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "mechanism", "examples")
-        # These need superelements, and have tests of their own.
+        # These types need superelements, and have separate tests.
         flexible = {"crane.yaml", "four_bar.yaml", "robot_from_step.yaml", "slider_crank.yaml"}
         for name in sorted(os.listdir(folder)):
             if name.endswith(".yaml") and name not in flexible:
@@ -236,7 +236,7 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("\n  joined to nothing that is held: the part of node 'lost'\n", done.stdout)
         self.assertNotIn("joined to nothing", self.run_changed(CRANK).stdout)
-        # A body that flies as a whole is intended to.
+        # A free body is probably intended.
         flying = model.replace("nodes: [ground, c]", "nodes: [lost, c]")
         self.assertNotIn("joined to nothing", self.run_changed(flying).stdout)
 

@@ -1,4 +1,5 @@
-"""Mishaps of files, streams and limits around the programs: damaged, modified, misplaced, closed, too small."""
+"""Tests of problems around the programs: damaged, modified and misplaced files, closed streams, and limits that are too
+small."""
 
 import os
 import resource
@@ -19,7 +20,7 @@ MODEL = PENDULUM + "output: {checkpoint: 10}\n"
 
 
 def rewrite(path, dataset, change):
-    """Puts other numbers in place of those of a dataset."""
+    """Replaces the numbers of a dataset."""
     with h5py.File(path, "r+") as file:
         values, attributes = change(file[dataset][()]), dict(file[dataset].attrs)
         del file[dataset]
@@ -58,7 +59,7 @@ class Files(CommandTest):
             with h5py.File(self.path("bad.h5"), "r+") as file:
                 place = file[f"analysis_1/{dataset}"]
                 flat = place[row].copy().reshape(-1)
-                flat.view("u1")[0] ^= 1  # a bit of the last place
+                flat.view("u1")[0] ^= 1  # one bit in the last place
                 place[row] = flat.reshape(place[row].shape)
             self.expect_refusal(says, "model.yaml", "--restart", "bad.h5", "-o", "on.h5",
                                 says=["analysis_1: its first ", "are not those that were written"])
@@ -67,7 +68,7 @@ class Files(CommandTest):
             done = self.run_program("model.yaml", "--restart", source, "-o", target, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(self.path("further.h5"), "r+") as file:
-            del file["checkpoints/analysis_1/rows_checksum"]  # a file of before
+            del file["checkpoints/analysis_1/rows_checksum"]  # a file of an earlier version
         self.assertEqual(self.run_program("model.yaml", "--restart", "further.h5", "-o", "old.h5", "--quiet").returncode, 0)
 
     def test_a_continued_run_replaces_no_other_results_by_default(self):
@@ -232,7 +233,7 @@ class Streams(CommandTest):
             time.sleep(0.02)
         time.sleep(1)
         run.send_signal(signal.SIGINT)
-        run.send_signal(signal.SIGINT)  # as `timeout` does: one interruption
+        run.send_signal(signal.SIGINT)  # one interruption, as by `timeout`
         time.sleep(1)
         self.assertIsNone(run.poll(), "the first one waits for the end of a step")
         run.send_signal(signal.SIGINT)
@@ -245,7 +246,7 @@ class Streams(CommandTest):
             run = self.start("model.yaml", stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             self.assertIn("error", run.communicate(timeout=60)[1])
-            self.assertIn(run.returncode, (2, 127))  # 127: of the loader, which has no room for the libraries
+            self.assertIn(run.returncode, (2, 127))  # 127 is the status of the loader if the libraries do not fit
 
 
 class Tampered(CommandTest):

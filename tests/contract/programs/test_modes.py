@@ -1,4 +1,5 @@
-"""Messages of `bielle-mechanism` about modes: instability, states that are not stationary, impossible computations."""
+"""Tests of messages of `bielle-mechanism` about modes: instability, states that are not stationary, impossible
+computations."""
 
 import os
 import re
@@ -31,7 +32,7 @@ class Modes(CommandTest):
 
     def test_a_standing_pendulum_is_unstable(self):
         text = self.summary(PENDULUM.format(x=0, z=1, analysis=EIGEN))
-        # s = sqrt(2 g / 2.1): doubled within ln 2 / s.
+        # A deviation grows with s = sqrt(2 g / 2.1) and doubles within ln 2 / s.
         self.assertRegex(text, r"UNSTABLE: mode [12] grows, the fastest to twice its size within 0\.227 s")
         self.assertNotIn("not in equilibrium", text)
 
@@ -45,14 +46,14 @@ class Modes(CommandTest):
         self.assertEqual(text.count("eigen, 1 mode"), 2)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
             self.assertEqual(file.attrs["complete"], 1)
-            self.assertAlmostEqual(file["/time"][-1], 0.2)            # end of the motion before
+            self.assertAlmostEqual(file["/time"][-1], 0.2)            # end of the previous motion
             self.assertAlmostEqual(file["/eigen/frequency"][0], (2 * 9.81 / 2.1)**0.5 / 6.283185307179586, places=9)
             self.assertIn("displacement", file["/analysis_2/eigen"])
             self.assertNotIn("displacement", file["/eigen"])
             self.assertNotIn("time", file["/analysis_2"])
 
     def test_an_equilibrium_at_the_origin_turns_although_it_is_found_but_for_rounding(self):
-        # w^2 = k/m - W^2 with k = 500 N/m at rest, m = 1 kg, W = 6 rad/s, in axes that turn.
+        # In rotating axes w^2 = k/m - W^2, with k = 500 N/m at rest, m = 1 kg, W = 6 rad/s.
         for start in ("1e-5", "1e-3", "0.01"):
             for rotation in ("{joint: axle, rate: 6}", "{joint: axle, rate: 6, state: mean}"):
                 with self.subTest(start=start, rotation=rotation):
@@ -103,7 +104,7 @@ analysis: [{type: eigen}]
             self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis, rigid"])
 
     def test_frequencies_of_what_turns_and_of_what_stands_are_told_apart(self):
-        # The shaft is round. The mass on a film stands still, so that its motion does not appear at the shaft.
+        # The shaft is round. The mass on a film does not rotate, and its motion does not appear at the shaft.
         text = self.summary("""\
 nodes: {shaft: {position: [0, 0, 0]}, body: {position: [0, 0, 0], fixed: [z, rx, ry, rz]}}
 elements:
@@ -118,9 +119,9 @@ analysis: [{type: eigen, rotation: {joint: main, rate: 200}}]
                       "still", text)
 
     def test_a_motion_of_many_harmonics_has_modes(self):
-        # An unbalanced rotor shakes a mass on a spring whose force rises with the ninth power: the stiffness along the
-        # motion has several times as many harmonics as the motion. The exponents of this degree of freedom add up to -damping/mass,
-        # whatever the stiffness is (Liouville).
+        # An unbalanced rotor shakes a mass on a spring whose force grows with the ninth power, so that the stiffness
+        # has several times as many harmonics as the motion. The exponents of this degree of freedom add up to
+        # -damping/mass for any stiffness (Liouville).
         text = self.summary("""\
 gravity: [0, 0, 0]
 nodes: {tower: {position: [0, 0, 0], fixed: [x, z, rx, ry, rz]}, hub: {position: [0, 0, 0]}}
@@ -136,7 +137,7 @@ analysis: [{type: eigen, rotation: {joint: shaft, rate: 10}}]
         self.assertGreater(int(re.search(r"\((\d+) harmonics\)", text)[1]), 14)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
             exponents = file["/eigen/eigenvalue"][:]  # (modes, real and imaginary part)
-        self.assertEqual(len(exponents), 2)  # the first one turns the shaft
+        self.assertEqual(len(exponents), 2)  # the first one is the rotation of the shaft
         self.assertGreater(exponents[1, 1], 0)
         self.assertAlmostEqual(2 * exponents[1, 0], -5 / 5, delta=1e-6)
 

@@ -1,4 +1,4 @@
-"""The interface of bielle-reduce: messages, exit statuses, and that only complete files replace good ones."""
+"""Tests of the interface of bielle-reduce: messages, exit statuses, and replacement of files by complete ones only."""
 
 import os
 import unittest
@@ -31,7 +31,7 @@ interfaces:
 modes: {count: 4}
 """
 
-# Two tetrahedra on a common face, the second with two nodes exchanged: turned inside out.
+# Two tetrahedra share a face. Two nodes of the second one are exchanged, which inverts it.
 INVERTED = """\
 $MeshFormat
 2.2 0 8

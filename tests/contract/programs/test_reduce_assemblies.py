@@ -1,4 +1,5 @@
-"""bielle-reduce on geometries of several solids, and on their meshes of hexahedra: stiffness and frequencies in closed form."""
+"""Compares reductions of geometries with several solids, and of their hexahedral meshes, with closed forms of stiffness
+and frequencies."""
 
 import math
 import re
@@ -11,7 +12,7 @@ from command import CommandTest
 from iges_boxes import iges_boxes
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
-# Two bars in a row, and a third one apart.
+# Two bars in a row, and a separate third one.
 BARS = """SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 60, 10, 10}; Box(2) = {60, 0, 0, 40, 10, 10}; Box(3) = {200, 0, 0, 40, 10, 10};
 """
@@ -61,10 +62,10 @@ class Assemblies(CommandTest):
         stiffness, frequencies = self.stiffness, self.frequencies
         self.reduce(BARS, "{size: 5e-3}", "volumes: [1, 2]\nglue: true\nregions: {all: steel}")
         self.assertAlmostEqual(self.mass / (7850 * AREA * 0.1), 1, delta=1e-9)
-        # Without contraction of the section a pulled bar is strained evenly, which elements represent exactly.
+        # Without lateral contraction a pulled bar has constant strain, which elements represent exactly.
         for pulled in (stiffness, self.stiffness):
             self.assertAlmostEqual(pulled[0, 0] / (210e9 * AREA / 0.1), 1, delta=1e-8)
-        # Both meshes have two elements across, and errors of the frequencies below 1 %.
+        # Both meshes have two elements across the section, and errors of the frequencies below 1 %.
         np.testing.assert_allclose(self.frequencies, frequencies, rtol=0.01)
 
     def test_bars_of_two_materials_are_springs_in_a_row(self):
@@ -78,8 +79,8 @@ class Assemblies(CommandTest):
 
     def test_a_cantilever_of_tetrahedra_and_of_hexahedra_vibrates_as_a_beam(self):
         clamped = "interfaces:\n  left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}}\nmodes: {count: 2}\n"
-        # Euler and Bernoulli's first frequency of a cantilever; shear and rotary inertia lower it by about 0.5 % here
-        # (h / L = 0.1, Timoshenko's equations).
+        # This is the first frequency of a cantilever by Euler and Bernoulli; shear and rotary inertia lower it by about
+        # 0.5 % here (h / L = 0.1, Timoshenko's equations).
         euler = 1.8751040687**2 / (2 * math.pi) * math.sqrt(210e9 * 0.01**2 / (12 * 7850)) / 0.1**2
         found = {}
         for cells, says in (("tetrahedra", ""), ("hexahedra", "hexahedra: in grids")):
@@ -95,8 +96,8 @@ class Assemblies(CommandTest):
                            "{size: 2.5e-3, cells: hexahedra}", "regions: {all: steel}")
         self.assertIn("tetrahedra of twice the size are divided into four each", said)
         self.assertIn("hex20", self.said)
-        # Mid-side nodes of elements that were inside out are on straight edges: the section of the mesh is smaller there. The
-        # stiffness follows from its mean, up to the variation along the bar.
+        # Inverted elements got straight edges, where the section of the mesh is smaller. The stiffness follows from the
+        # mean section, up to the variation along the bar.
         area = self.mass / (7850 * 0.1)
         self.assertAlmostEqual(area / (math.pi * 0.005**2), 1, delta=5e-3)
         self.assertAlmostEqual(self.stiffness[0, 0] / (210e9 * area / 0.1), 1, delta=5e-4)
@@ -176,13 +177,15 @@ class Assemblies(CommandTest):
 
 
 def timoshenko(euler):
-    """The first frequency of the cantilever of the test by Timoshenko's equations with the shear factor 5/6 of Cowper for a
-    Poisson's ratio of 0, from its characteristic determinant; between 0.9 and 1 times Euler and Bernoulli's."""
+    """Returns the first frequency of the cantilever by Timoshenko's equations with Cowper's shear factor 5/6 for a
+    Poisson's ratio of 0. It is a zero of the characteristic determinant between 0.9 and 1 times the frequency by Euler
+    and Bernoulli."""
     length, height, young, density = 0.1, 0.01, 210e9, 7850
     area, inertia, shear = height**2, height**4 / 12, young / 2 * 5 / 6
 
     def determinant(frequency):
-        # The state (w, psi, M, Q) grows along the bar by a matrix exponential; w = psi = 0 here, M = Q = 0 there.
+        # The state (w, psi, M, Q) changes along the bar by a matrix exponential, with w = psi = 0 at one end and M = Q
+        # = 0 at the other.
         square = (2 * math.pi * frequency)**2
         rate = np.zeros((4, 4))
         rate[0, 1], rate[0, 3] = 1, 1 / (shear * area)

@@ -1,6 +1,6 @@
-"""Bodies of CalculiX' matrices, moved: shells and tetrahedra against Bielle's own reduction of the same mesh."""
+"""Compares motions of bodies from matrices of CalculiX, shells and tetrahedra, with Bielle's own reduction of the same
+mesh."""
 
-import itertools
 import os
 import shutil
 import subprocess
@@ -12,6 +12,7 @@ import numpy as np
 import scipy.linalg
 
 from test_reduce_matrices import Matrices
+from kuhn_cubes import kuhn_cubes
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
@@ -60,13 +61,14 @@ class Moved(Matrices):
         subprocess.run(["ccx", name], cwd=self.folder, check=True, capture_output=True, timeout=300)
 
     def motion(self, model, name, step=0.001):
-        """Times, and positions of both ends, of a body in a mechanism."""
+        """Returns the times, and the positions of both ends of a body in a mechanism."""
         with self.run_mechanism(model.format(name=name, length=LENGTH, step=step)) as file:
             run = file["analysis_1"]
             return run["time"][:], run["nodes/pin/position"][:], run["nodes/tip/position"][:]
 
     def check_frequencies(self, body, job, count):
-        """The free frequencies of the reduced body lie above those that CalculiX prints for its own, by less than 1 %."""
+        """Asserts that the free frequencies of the reduced body are above those that CalculiX prints, by less than 1
+        %."""
         with open(self.path(f"{job}.dat"), encoding="utf-8") as file:
             rows = [line.split() for line in file if len(line.split()) == 5 and line.split()[0].isdigit()]
         printed = np.array([float(row[3]) for row in rows[6:6 + count]])
@@ -79,10 +81,11 @@ class Moved(Matrices):
 
 @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian: calculix-ccx)")
 class Shells(Moved):
-    """A strip of CalculiX' shells S8, which it expands to solids, against Bielle's own reduction of the same strip."""
+    """Compares a strip of CalculiX' shells S8, which it expands to solids, with Bielle's own reduction of the same
+    strip."""
 
     def shell_strip(self, cells=10):
-        """Writes the deck of a strip along x and runs it: matrices and expanded nodes."""
+        """Writes the deck of a strip along x, and runs it to get matrices and expanded nodes."""
         width, places, elements = WIDTH, {}, []
 
         def node(i, j):
@@ -124,10 +127,11 @@ modes: {{count: 8}}
         self.reduce("solid")
 
     def check_flight(self):
-        """Free and spinning about two axes, both strips fly alike, and their centre straight on."""
+        """Both free strips, which spin about two axes, have the same motion, and their centre moves straight on."""
         time, pin, tip = self.motion(FLY, "shells")
         np.testing.assert_allclose(tip, self.motion(FLY, "solid")[2], atol=2e-5)
-        # The middle of the ends vibrates by the bending that the spin about z sets in, far less than the strip is wide.
+        # The spin about z causes bending vibrations of the middle between the ends, far smaller than the width of the
+        # strip.
         np.testing.assert_allclose((pin + tip)[:, 0] / 2, LENGTH / 2 + 0.5 * time, atol=2e-3)
         self.assertGreater(np.abs(tip[:, 1]).max(), 0.4)
 
@@ -138,7 +142,7 @@ modes: {{count: 8}}
         self.assertIn("the inertia of large rotations is that of the nodes", self.reduce("shells"))
         self.solid_strip()
         with h5py.File(self.path("shells.h5")) as shells, h5py.File(self.path("solid.h5")) as solid:
-            # CalculiX expands S8 to cells of 20 nodes, which are those of the twin.
+            # CalculiX expands S8 to cells of 20 nodes, which are those of the other body.
             np.testing.assert_allclose(shells["modes/frequencies"], solid["modes/frequencies"], rtol=1e-6)
             np.testing.assert_allclose(shells["mass_properties/mass"], solid["mass_properties/mass"], rtol=1e-6)
             np.testing.assert_allclose(shells["mass_properties/inertia"], solid["mass_properties/inertia"], atol=1e-5)
@@ -153,18 +157,11 @@ modes: {{count: 8}}
 
 @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian: calculix-ccx)")
 class Tetrahedra(Moved):
-    """A square rod of C3D10: CalculiX' matrices of a deck against Bielle's own reduction of the same deck."""
+    """Compares matrices of CalculiX for a square rod of C3D10 with Bielle's own reduction of the same deck."""
 
     def rod(self, cells=10):
         """Writes and runs the deck of cubes of six tetrahedra, in a row along x. Returns the nodes of both ends."""
-        numbers, elements = {}, []
-        for x in range(cells):
-            for path in itertools.permutations(np.eye(3, dtype=int)):
-                corners = np.cumsum([np.array([x, 0, 0]), *path], axis=0)
-                if np.linalg.det(corners[1:] - corners[0]) < 0:
-                    corners = corners[[0, 2, 1, 3]]
-                middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
-                elements.append([numbers.setdefault(tuple(map(float, place)), len(numbers) + 1) for place in (*corners, *middles)])
+        numbers, elements = kuhn_cubes(cells)
         nodes = "".join(f"{number}, {LENGTH * x / cells:.12g}, {SIDE * (y - 0.5):.12g}, {SIDE * (z - 0.5):.12g}\n"
                         for (x, y, z), number in numbers.items())
         cards = "".join(f"{k}, {', '.join(map(str, element))}\n" for k, element in enumerate(elements, 1))
@@ -194,7 +191,7 @@ class Tetrahedra(Moved):
         self.reduce_deck("own", YOUNG)
         self.reduce_deck("rigid", 1e4 * YOUNG)
         with h5py.File(self.path("matrices.h5")) as matrices, h5py.File(self.path("own.h5")) as own:
-            # CalculiX integrates the mass of C3D10 at four points, which is exact for rigid motions alone.
+            # CalculiX integrates the mass of C3D10 at four points, which is exact for rigid motions only.
             np.testing.assert_allclose(matrices["modes/frequencies"], own["modes/frequencies"], rtol=2e-3)
             for name in ("mass", "centre", "inertia"):
                 # Weights and entries of CalculiX have about ten digits.
@@ -210,11 +207,12 @@ class Tetrahedra(Moved):
         deformation = np.abs(self.motion(FLY, "rigid")[2] - tip).max()
         self.assertGreater(deformation, 1e-6)
         self.assertLess(np.abs(self.motion(FLY, "own")[2] - tip).max(), 1e-3 * deformation)
-        # The middle of the ends is the centre of the rod, which flies straight on.
+        # The middle between the ends is the centre of the rod, which moves straight on.
         np.testing.assert_allclose((pin + tip) / 2, [LENGTH / 2, 0, 0] + np.outer(time, [0.5, 0, 0]), rtol=0, atol=1e-9)
 
     def check_spin(self):
-        expected = DENSITY * 6**2 * LENGTH**3 / (12 * YOUNG)  # between the ends in steady rotation, about which the rod vibrates
+        # The rod vibrates about its elongation in steady rotation.
+        expected = DENSITY * 6**2 * LENGTH**3 / (12 * YOUNG)
         lags = []
         for step in (0.001, 0.0005):
             time, pin, tip = self.motion(SPIN, "matrices", step)
@@ -223,7 +221,8 @@ class Tetrahedra(Moved):
             lags.append(6 * time[-1] - angle[-1])
         stretch = np.mean(np.linalg.norm(tip - pin, axis=1)) - LENGTH
         self.assertAlmostEqual(stretch / expected, 1, delta=0.01)
-        # The angular momentum is that of the unstretched rod: it turns more slowly by twice the stretch. Steps of second order.
+        # The angular momentum is that of the unstretched rod, so that it turns more slowly by twice the stretch. The
+        # error of the steps is of second order.
         self.assertAlmostEqual((4 * lags[1] - lags[0]) / 3 / (6 * time[-1] * 2 * expected), 1, delta=0.02)
 
     def check_swing(self):

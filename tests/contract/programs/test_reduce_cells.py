@@ -1,4 +1,4 @@
-"""bielle-reduce with solid cells of every type: one bar, meshed with each, is the same body."""
+"""Tests of bielle-reduce with solid cells of every type: meshes of one bar give the same body."""
 
 import os
 import subprocess
@@ -66,7 +66,7 @@ class Cells(WithQuickTools, CommandTest):
         return h5py.File(self.path(name + ".h5"))
 
     def test_every_type_makes_the_same_body(self):
-        """The reduction checks itself; types of order 2 agree on the first bending frequency, hex8 nearly so."""
+        """The reduction checks itself. Types of order 2 agree on the first bending frequency, and hex8 nearly does."""
         within = {"tetra1": 0.5, "wedge1": 0.05, "pyramid1": 0.2, "hexahedron1": 0.02, "mixture1": 0.2}
         first = {}
         for kind, cells in KINDS.items():
@@ -95,7 +95,7 @@ class Cells(WithQuickTools, CommandTest):
                 self.assertEqual(self.run_tool("bielle-paraview", "run.h5", "-o", "figures").returncode, 0)
                 with h5py.File(self.path("run.h5")) as file:
                     stress = np.array(file["analysis_1/elements/bar/von_mises"])[-1]
-                # Away from the ends: force over area.
+                # The stress away from the ends is force over area.
                 self.assertAlmostEqual(np.median(stress) / (1e6 / cell_decks.SIDE), 1, delta=0.02)
 
     def test_a_file_that_keeps_the_skin_alone_is_drawn(self):
@@ -126,7 +126,7 @@ class Cells(WithQuickTools, CommandTest):
                             says=("mixed.yaml:2: geometry", "4 quadrilateral faces of solid cells stand against two triangles", "(0.3, "))
 
     def test_reduced_integration_is_judged(self):
-        """A bar one cell thick is singular, a thicker one has hourglass modes among the high ones."""
+        """A bar one cell thick is singular; a thicker one has hourglass modes among its higher modes."""
         for across, says in ((1, "singular at the point"), (3, "is an hourglass mode")):
             box = cell_decks.Box(("hexahedron",) * (6 if across == 1 else 3), 2, across)
             self.write("bar.inp", box.abaqus())
@@ -141,7 +141,7 @@ class Cells(WithQuickTools, CommandTest):
                     self.assertEqual("integration: reduced' out" in done.stderr, wanted)
 
     def test_warnings_of_pieces_have_their_names(self):
-        """The hourglass modes of a bar in two pieces, the second of which is held by the cut alone."""
+        """Tests hourglass modes of a bar in two pieces, the second of which is held by the cut alone."""
         self.write("bar.inp", cell_decks.Box(("hexahedron",) * 3, 2, 3).abaqus())
         text = BODY.format(name="bar", kept="all").replace("bar.msh", "bar.inp").replace("count: 4", "count: 60")
         text = text.split("  right:")[0] + "modes:" + text.split("modes:")[1].split("loads:")[0]
@@ -151,7 +151,7 @@ class Cells(WithQuickTools, CommandTest):
         self.assertRegex(done.stderr, r"warning: bar.yaml:1: bar\.2: integration: fixed-boundary mode [0-9]+ at .* is an hourglass mode")
 
     def test_plain_integration_locks(self):
-        """hex8 without internal modes bends far too little, as other programs' C3D8."""
+        """hex8 without internal modes is far too stiff in bending, like C3D8 of other programs."""
         self.mesh("bar", ("hexahedron",) * 12, 1)
         first = {}
         for integration in ("standard", "plain"):
@@ -169,7 +169,8 @@ class Cells(WithQuickTools, CommandTest):
             self.expect_refusal(1, "tets.yaml", "-o", "tets.h5", says=("tets.yaml:1: integration", f"'{integration}'", "the mesh has none"))
 
     def test_cells_that_stand_twice_are_named_by_the_numbers_of_the_deck(self):
-        """With the nodes of the first ones, and with nodes of their own: the advice to merge nodes would be wrong there."""
+        """The duplicate cells have the nodes of the first ones, or separate nodes; the advice to merge nodes would be
+        wrong then."""
         text = cell_decks.Box(("hexahedron",) * 3, 1).abaqus()
         head, rows = text.split("*ELEMENT, TYPE=C3D8, ELSET=BODY\n")
         count = len(rows.strip().split("\n"))

@@ -1,4 +1,5 @@
-"""Bodies of other programs' matrices: `--from`, body files with `matrices`, and their motion in a mechanism."""
+"""Tests of bodies from matrices of other programs: `--from`, body files with `matrices`, and their motion in a
+mechanism."""
 
 import os
 import subprocess
@@ -23,8 +24,8 @@ analysis: [{type: dynamic, duration: 0.35, step: 0.0005}]
 
 
 def beam(EA=1e6, GJ=1e3, EI=2e3, rho=2.0, polar=2e-4):
-    """K and M of an Euler-Bernoulli beam of length 1 along x between two nodes (J. S. Przemieniecki, Theory of Matrix Structural
-    Analysis, 1968)."""
+    """Returns K and M of an Euler-Bernoulli beam of length 1 along x between two nodes (J. S. Przemieniecki, Theory of
+    Matrix Structural Analysis, 1968)."""
     K, M = np.zeros((12, 12)), np.zeros((12, 12))
     for places, stiffness, mass in (((0, 6), EA, rho), ((3, 9), GJ, polar)):
         K[np.ix_(places, places)] += stiffness * np.array([[1, -1], [-1, 1]])
@@ -76,12 +77,13 @@ class Files(Matrices):
             run = file["analysis_1"]
             time = run["time"][:]
             a, b = run["nodes/a/position"][:], run["nodes/b/position"][:]
-            # The centre flies straight; the ends turn about it by 20 rad/s as a rigid body, but for the stretching by its spin.
+            # The centre moves straight on; the ends rotate about it at 20 rad/s like a rigid body, except for the
+            # stretching by the spin.
             np.testing.assert_allclose((a + b)[:, 0] / 2, 0.5 + 0.3 * time, atol=2e-4)
             np.testing.assert_allclose((a + b)[:, 2] / 2, 0.2 * time, atol=1e-6)
             angle = np.unwrap(np.arctan2(*(b - a)[:, 1::-1].T))
             np.testing.assert_allclose(angle, 20 * time, atol=2e-3 * 7)
-            # u = rho w^2 L^3 / (12 EA) between the ends of a free rod in steady rotation, to first order.
+            # The elongation of a free rod in steady rotation is u = rho w^2 L^3 / (12 EA) to first order.
             stretch = np.linalg.norm(b - a, axis=1) - 1
             self.assertAlmostEqual(np.mean(stretch[len(stretch) // 4:]) / (2.0 * 400 / 12e6), 1, delta=0.1)
 
@@ -111,7 +113,8 @@ damping: {ratio: 0.01}
         self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(self.path("body.h5")) as file:
             self.assertEqual(list(file["interface/names"].asstr()), ["hub", "end"])
-            self.assertEqual(file["reduced/stiffness"].shape, (12, 12))  # 11 directions and a mode of the released one
+            # There are 11 directions, and a mode of the released one.
+            self.assertEqual(file["reduced/stiffness"].shape, (12, 12))
             self.assertIn("tip", file["points"])
 
     def test_wrong_body_files(self):

@@ -1,4 +1,5 @@
-"""bielle-reduce on every kind of geometry and mesh that a body file may name, what --list offers, and broken meshes."""
+"""Tests of bielle-reduce with every kind of geometry and mesh that a body file may name, of --list, and of broken
+meshes."""
 
 import os
 import shutil
@@ -54,7 +55,7 @@ class Meshes(WithQuickTools, CommandTest):
             return result["modes/frequencies"][()]
 
     def sides(self):
-        """Triangles on x = 0 in VTK's node order."""
+        """Returns the triangles on x = 0 in VTK's node order."""
         faces = [[0, 2, 1, 6, 5, 4], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [0, 3, 2, 7, 9, 6]]
         return np.array([row[face] for row in self.cells for face in faces if set(row[face]) <= set(self.left)])
 
@@ -138,7 +139,7 @@ class Meshes(WithQuickTools, CommandTest):
                 self.assertFalse(os.path.exists(self.path("body.h5")))
 
     def test_an_empty_group(self):
-        # A physical surface that is named but has no triangle.
+        # The physical surface has a name, but no triangles.
         mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"left\"\n3 2 \"body\"\n$EndPhysicalNames\n"
         mesh += f"$Nodes\n{len(self.points)}\n" + "".join(
             f"{i + 1} {x:.17g} {y:.17g} {z:.17g}\n" for i, (x, y, z) in enumerate(self.points)) + "$EndNodes\n"
@@ -195,8 +196,10 @@ class Conrod(CommandTest):
 
 
 def write_unv(path, points, cells, sides, dataset):
-    """Universal file: nodes (2411), elements (2412: 118 tet10, 42 tri6), groups `body` and `left` (2467, or its forerunner 2477)."""
-    # Along edges the universal order is corner, middle, corner ...; then the three middles below the top, the top.
+    """Returns a universal file with nodes (2411), elements (2412: 118 tet10, 42 tri6), and the groups `body` and `left`
+    (2467, or its predecessor 2477)."""
+    # The universal order is corner, middle, corner, .. along the edges of the base, then the three middles below the
+    # top, and the top.
     tet = [0, 4, 1, 5, 2, 6, 7, 8, 9, 3]
     tri = [0, 3, 1, 4, 2, 5]
     lines = ["    -1", "  2411"]

@@ -1,4 +1,5 @@
-"""Bodies in pieces, from the body file to the results of a mechanism: the output, the layout of the file, refusals."""
+"""Tests of bodies in pieces, from the body file to the results of a mechanism: the output, the layout of the file,
+refusals."""
 
 import os
 import re
@@ -125,9 +126,10 @@ class ReducePieces(BarTest):
             forces = elements["bar.1/interface_force"][-1]
             names = [name for name in elements["bar.1"].attrs if name.startswith("interface")]
             self.assertEqual(sorted(names), ["interface cut_1", "interface left"])
-            # The wall holds the whole wind, in body axes that turn by next to nothing.
+            # The wall carries the whole wind load, in body axes that hardly rotate.
             self.assertAlmostEqual(forces[0, 1], -8, delta=1e-3)
-            # The uncut bar as a cantilever under q = 40 N/m: q L^4/(8 EI) and shear, some per cent off for the coarse mesh.
+            # The uncut bar is a cantilever under q = 40 N/m, with q L^4/(8 EI) and shear; the coarse mesh causes errors
+            # of some per cent.
             tip = file["analysis_1/nodes/bar.right/position"][-1, 1] - 0.01
             deflection = 40 * 0.2 ** 4 / (8 * 210e9 * 0.02 ** 4 / 12)
             self.assertTrue(0.93 * deflection < tip < 1.03 * deflection, (tip, deflection))

@@ -1,4 +1,4 @@
-"""Points that the body file names, from the body file to the results of a mechanism, and their residual vectors."""
+"""Tests of named points and their residual vectors, from the body file to the results of a mechanism."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ from bar_body import BarTest
 from command import PROGRAMS
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
-# A bar with a pad on its bottom that touches neither end.
+# A bar with a pad on its bottom, away from both ends.
 BAR = """\
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 0.2, 0.02, 0.02};
@@ -60,7 +60,7 @@ class ReducePoints(BarTest):
     geometry = BAR
 
     def displacements(self, model, **nodes):
-        """Runs the mechanism on the body. @returns the distances of nodes from the places given for them"""
+        """Runs the mechanism with the body. @returns the distances of nodes from their expected places"""
         self.write("model.yaml", model)
         done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5"], cwd=self.folder,
                               text=True, capture_output=True, timeout=120)
@@ -88,7 +88,8 @@ class ReducePoints(BarTest):
         self.assertTrue((numpy.diff(frequencies[:4]) >= 0).all() and (numpy.diff(frequencies[4:]) >= 0).all())
 
     def test_a_point_with_residual_vectors_gives_way_as_an_interface_on_its_surface_does(self):
-        """Constraint modes are exact in statics, and the pad as an averaging interface is the same mean of the same surface."""
+        """Constraint modes are exact in statics, and the pad as an averaging interface is the same mean over the same
+        surface."""
         extra = "recovery: {displacement: none, stress: none}\n"
         self.reduce(BODY + POINTS + extra)
         pad, sensor = self.displacements(MODEL, pad=PAD_PLACE, sensor=SENSOR_PLACE)
@@ -96,7 +97,7 @@ class ReducePoints(BarTest):
                     "points: {sensor: {at: [0.05, 0.01, 0.01]}}\n")
         at_interface = MODEL.replace("  pad: {element: bar, point: pad}\n", "").replace("node: pad", "node: bar.pad")
         exact, exact_sensor = self.displacements(at_interface, bar__pad=PAD_PLACE, sensor=SENSOR_PLACE)
-        # Quadratic terms: the bar turns by some 1e-7.
+        # Quadratic terms are negligible, since the bar rotates by about 1e-7.
         self.assertLess(numpy.linalg.norm(pad - exact), 1e-6 * numpy.linalg.norm(exact))
         self.assertLess(numpy.linalg.norm(sensor - exact_sensor), 1e-6 * numpy.linalg.norm(exact_sensor))
         self.reduce(BODY + POINTS.replace(", residual: true", "") + extra)

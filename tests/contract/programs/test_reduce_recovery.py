@@ -1,4 +1,5 @@
-"""Stress and other quantities that the file of another program recovers: read, reduced, recorded in a mechanism."""
+"""Tests of stress and other quantities that the file of another program recovers: they are read, reduced and recorded
+in a mechanism."""
 
 import os
 import subprocess
@@ -54,7 +55,7 @@ class Recovery(CommandTest):
         return done
 
     def body_of_the_mesh(self):
-        """Reduces the bar, and gives its matrices with a quantity: the stress xx and xy of its node 5."""
+        """Reduces the bar, and writes its matrices with a quantity, the stress xx and xy of node 5."""
         self.write("bar.geo", GEOMETRY)
         self.write("bar.yaml", BODY)
         self.reduce("bar.yaml")
@@ -74,8 +75,9 @@ class Recovery(CommandTest):
             return file[f"analysis_1/elements/bar/{field}"][-1]
 
     def test_own_stress_through_output4_and_back(self):
-        """Own bodies have a geometric stiffness of their loads, which no format holds: it changes the stress by 2e-9 under 1 N. Text of
-        eleven digits loses two more in a bar ten times as long as thick, where stress is the difference of larger parts."""
+        """Bielle's own bodies have a geometric stiffness of their loads, which no format contains; it changes the
+        stress by 2e-9 under 1 N. Text has eleven digits, two of which are lost in a bar ten times as long as thick,
+        where stress is a difference of larger terms."""
         self.body_of_the_mesh()
         expected = self.rows("stress", "bar.h5", "root", "tip")
         for name, path, within in (("op4", "bar.op4", 5e-9), ("dmig", "bar.pch", 1e-7)):
@@ -108,7 +110,7 @@ class Recovery(CommandTest):
         self.refusals(text)
 
     def refusals(self, text):
-        """Slips in the body file and in the mechanism."""
+        """Tests of mistakes in the body file and in the mechanism."""
         for rows, says in ((", rows: [front]", "a name for each of the 2 rows, found 1"), (", rows: {far: 3}", "'far' is row 3, but the matrix has the rows 1"),
                            (", rows: [a, a]", "two rows 'a'"), (", rows: []", "at least one"), (", rows: {a: 0}", "rows"), (", row: [a]", "did you mean 'rows'")):
             with self.subTest(says):
@@ -128,7 +130,7 @@ class Recovery(CommandTest):
                 self.assertIn(says, done.stderr)
 
     def test_words_of_the_body_file(self):
-        """Messages of the converter name keys of the body file, not options that the user does not have."""
+        """Messages of the converter name keys of the body file, not options, which the user did not write."""
         formats.module_of("op4").write(self.body_of_the_mesh(), self.path("bar.op4"), formats.Options(format="op4"))
         for key, says in (("units: mm-t", "`units: mm-t`: units of length"), ("names: {stiffness: KXX}", "`names`"), ("unknowns: bar.yaml", "`unknowns`")):
             with self.subTest(says):

@@ -1,4 +1,4 @@
-"""Mistakes of users of bielle-reduce: units, sizes, the output file, a full disk, a killed run."""
+"""Tests of mistakes of users of bielle-reduce: units, sizes, the output file, a full disk, a killed run."""
 
 import os
 import resource
@@ -24,7 +24,7 @@ class Slips(BarTest):
 
     def test_a_forgotten_unit_is_found_before_anything_is_meshed(self):
         self.write("bar.geo", BAR.replace("0.2, 0.02, 0.02", "200, 20, 20"))
-        self.body()  # 200 m x 20 m x 20 m in elements of 20 mm: 8e4 m^3 / (0.02 m)^3 times 8
+        self.body()  # The number of elements of 20 mm in 200 m x 20 m x 20 m is 8e4 m^3 / (0.02 m)^3 times 8
         self.expect_refusal(1, "body.yaml", says=["body.yaml:4: mesh: elements of 20 mm would be about 8e+10",
                                                   "the body is 200 m long", "is the geometry's length_unit m"])
         self.body("length_unit: m", "length_unit: mm")
@@ -141,10 +141,10 @@ class Interruptions(BarTest):
             time.sleep(1e-4)
         run.send_signal(signal.SIGKILL)
         run.wait(timeout=120)
-        with h5py.File(self.path) as file:  # the earlier one, or the new one if the kill came too late
+        with h5py.File(self.path) as file:  # the earlier file, or the new one if the kill came too late
             self.assertEqual(file.attrs["complete"], 1)
         self.assertEqual(self.run_program("--inspect", "body.h5").returncode, 0)
-        self.assertEqual(self.run_program("body.yaml", "--quiet").returncode, 0)  # remains do not disturb
+        self.assertEqual(self.run_program("body.yaml", "--quiet").returncode, 0)  # remaining files have no effect
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Universal files of hexahedra, wedges, tetrahedra and their mixtures, of both orders, with curved edges and groups of several types."""
+"""Tests of universal files of hexahedra, wedges, tetrahedra and their mixtures, of both orders, with curved edges and
+groups of several types."""
 
 import os
 import sys
@@ -14,8 +15,8 @@ sys.path.insert(0, os.path.join(HERE, "..", "tools"))
 from cell_decks import SIZE, VOLUME, Box  # noqa: E402
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
-# Corners and middles of edges in the order of I-DEAS: along the edges of the bottom, up, along the edges of the top.
-# (SDRC I-DEAS, Universal Dataset Number 2412; Element library.)
+# Corners and middles of edges in the order of I-DEAS: along the edges of the bottom, up, along the edges of the top
+# (SDRC I-DEAS, Universal Dataset Number 2412; Element library).
 ORDERS = {"tetra": "1 12 2 23 3 31 14 24 34 4", "wedge": "1 12 2 23 3 31 14 25 36 4 45 5 56 6 64",
           "hexahedron": "1 12 2 23 3 34 4 41 15 26 37 48 5 56 6 67 7 78 8 85"}
 TYPES = {"tetra": (111, 118), "wedge": (112, 113), "hexahedron": (115, 116), "pyramid": (312, 313)}
@@ -73,7 +74,7 @@ class UniversalFiles(CommandTest):
             return file["mass_properties/mass"][()], file["mass_properties/centre"][()]
 
     def test_mixtures_of_both_orders(self):
-        """The two halves have other materials: each is a group of cells of several types."""
+        """The two halves have different materials; each is a group of cells of several types."""
         for order in (1, 2):
             for kinds in (("hexahedron", "wedge") * 2, ("tetra", "tetra")):
                 with self.subTest(order=order, kinds=kinds):
@@ -83,7 +84,8 @@ class UniversalFiles(CommandTest):
                     np.testing.assert_allclose(centre, [x, SIZE[1] / 2, SIZE[2] / 2], rtol=1e-9)
 
     def test_groups_keep_their_members_whatever_their_numbers(self):
-        """gmsh takes parts that groups divide the mesh into for members of the property of their number."""
+        """gmsh divides the mesh by groups into parts, and treats them as members of the property with the same
+        number."""
         for physical in (1, 2, 7):
             for dataset in (2467, 2477, 2452, 2435):
                 with self.subTest(physical=physical, dataset=dataset):
@@ -91,8 +93,8 @@ class UniversalFiles(CommandTest):
                     self.assertAlmostEqual(mass / (VOLUME / 2 * (7850 + 1000)), 1, delta=1e-9)
 
     def test_curved_edges(self):
-        """Cells of order 2 contain the quadratic function of y by which the box is bent; a wrong order of their nodes would give
-        another volume, and another centre, or cells that are turned inside out."""
+        """Cells of order 2 represent the quadratic function of y that bends the box; a wrong order of their nodes would
+        change the volume and the centre, or invert cells."""
         bent = 3.0
         for kinds in (("hexahedron",) * 2, ("wedge",) * 2, ("tetra",) * 2, ("wedge", "hexahedron") * 2):
             with self.subTest(kinds=kinds):
@@ -120,7 +122,7 @@ class UniversalFiles(CommandTest):
                       f"1 of type 21 (the first at line {line + 2}), 1 of type 161 (line {line})", self.done.stderr)
 
     def test_elements_on_which_gmsh_fails_are_left_out(self):
-        """A pipe, a face of order 3: the first would be an error of gmsh, the second would vanish without a word."""
+        """A pipe element would be an error in gmsh, and a face of order 3 would be dropped silently."""
         pipe, cubic = (f"{number:10d}{kind:10d}{1:10d}{1:10d}{7:10d}{nodes:10d}" for number, kind, nodes in ((900, 31, 2), (901, 43, 9)))
         self.reduced(universal(Box(("hexahedron", "wedge"), 1), extra=(pipe, f"{1:10d}{2:10d}", cubic, "".join(f"{n:10d}" for n in range(1, 9)),
                                                                       f"{9:10d}")))

@@ -1,4 +1,4 @@
-"""The verdict of bielle-reduce, on good bodies and on bad ones; files that run commands; threads that wait."""
+"""Tests of the verdict of bielle-reduce on good and bad bodies, of files that run commands, and of waiting threads."""
 
 import os
 import re
@@ -11,7 +11,7 @@ from command import PROGRAMS, CommandTest
 from test_reduce import BAR, BODY
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
-# Twice as thick as its elements, ends that may deform, modes enough.
+# The bar is two elements thick, its ends may deform, and it has enough modes.
 GOOD = (BODY.replace("size: 0.02", "size: 0.01").replace("tie: rigid", "tie: average").replace("count: 4", "count: 24"))
 
 
@@ -23,7 +23,7 @@ class Verdict(CommandTest):
         self.write("bar.geo", BAR)
 
     def said(self, text, *changes):
-        """The lines of the verdict on a body file."""
+        """Returns the lines of the verdict on a body file."""
         for old, new in changes:
             self.assertIn(old, text)
             text = text.replace(old, new)
@@ -59,7 +59,7 @@ class Verdict(CommandTest):
         few, part = self.frequencies()[0], float(found.group(2))
         self.assertGreater(part, 5)
         advice = re.search(r"change first: modes: \{below: (\d+)\}", said).group(1)
-        # The verdict is correct for the body that its advice gives, and the advice is good.
+        # The advice removes the problem, and the verdict on the changed body is correct.
         better = self.said(held_once, ("count: 24", f"below: {advice}"))
         self.assertAlmostEqual(100 * (few / self.frequencies()[0] - 1), part, delta=0.2 * part)
         self.assertIn("verdict: good up to", better)

@@ -1,5 +1,5 @@
-"""Continued runs: only with the same model, to the bit after any interruption, and with no step twice in the table of
-steps."""
+"""Tests of continued runs: they need the same model, equal uninterrupted runs to the last bit, and record no step twice
+in the table of steps."""
 
 import os
 import signal
@@ -41,7 +41,7 @@ output: {every: 1, checkpoint: 20}
 
 TABLE = "0, 0\n0.2, 0\n1, 5\n"
 
-# Friction that sticks, bristles, stops, a contact that bounces, control, an event; steps that change.
+# The model has sticking friction, bristles, stops, a bouncing contact, control, an event, and variable steps.
 RICH = """\
 gravity: [0, 0, -9.81]
 nodes:
@@ -67,8 +67,8 @@ analysis: [ANALYSIS]
 output: {every: 1, checkpoint: 25, log: true}
 """
 
-# A shaft without mass drives two wheels through friction that sticks and slips; their teeth have play and rattle. The model contains
-# counted angles, memory and many events.
+# A massless shaft drives two wheels through friction that sticks and slips; their teeth have play and rattle. The model
+# contains counted angles, memory and many events.
 GEARS = """\
 nodes:
   shaft: {}
@@ -161,7 +161,7 @@ class SameMotion(CommandTest):
     program = "bielle-mechanism"
 
     def end_early(self, name, number, count):
-        """Runs the model until it has written so many checkpoints, and ends it by a signal."""
+        """Runs the model until it has written a number of checkpoints, and ends it by a signal."""
         for path in (name, name.replace(".h5", ".steps.csv")):
             if os.path.exists(self.path(path)):
                 os.remove(self.path(path))
@@ -218,7 +218,8 @@ class SameMotion(CommandTest):
     def test_interrupted_twice(self):
         self.write("model.yaml", RICH.replace("ANALYSIS", "{type: dynamic, duration: 2, step: 1e-3}").replace("checkpoint: 25", "checkpoint: 400"))
         self.assertEqual(self.run_program("model.yaml", "-o", "whole.h5", "--quiet").returncode, 0)
-        self.end_early("cut.h5", signal.SIGTERM, 1)  # before the first checkpoint but that of the start, or soon after
+        # The run ends before or soon after the first checkpoint that follows that of the start.
+        self.end_early("cut.h5", signal.SIGTERM, 1)
         for _ in range(2):
             run = subprocess.Popen([os.path.join(PROGRAMS, self.program), "model.yaml", "--restart", "cut.h5", "-o", "cut.h5", "--quiet"],
                                    cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

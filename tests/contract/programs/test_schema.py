@@ -1,5 +1,5 @@
-"""JSON schemas of both programs: valid files are valid, and files that the programs refuse because of a key are
-invalid."""
+"""Tests of the JSON schemas of both programs: valid files pass, and files that the programs refuse because of a key
+fail."""
 
 import glob
 import json
@@ -21,7 +21,7 @@ import test_fuzz_yaml  # noqa: E402
 
 
 def load(text):
-    """YAML 1.2, as the programs read it: `on` and `yes` are words."""
+    """The programs read YAML 1.2, in which `on` and `yes` are words."""
     class Loader(yaml.SafeLoader):
         pass
 

@@ -1,4 +1,5 @@
-"""A run's judgement of itself: degrees of freedom, nearly redundant loops, energy, motions that stand still."""
+"""Tests of the warnings of a run about itself: degrees of freedom, nearly redundant loops, energy, models without
+motion."""
 
 import re
 import unittest
@@ -20,7 +21,7 @@ joints:
 analysis: [{{type: dynamic, duration: 0.05, step: 1e-3}}]
 """
 
-# Starts at the bottom with 6 m/s.
+# The pendulum starts at the bottom with 6 m/s.
 PENDULUM = """\
 gravity: [0, 0, -9.81]
 nodes: {{a: {{position: [0, 0, -1], velocity: [-6, 0, 0], angular_velocity: [0, 6, 0]}}}}
@@ -124,7 +125,7 @@ class SelfJudgement(CommandTest):
                       self.summary(falling.format(duration=0.4, step=0.02, rho=1)))
 
     def test_the_balance_is_judged_by_what_flows_through(self):
-        # A damper that is driven stores nothing; a brake takes 10 kJ from a drive, and the rotor stores 0.05 J.
+        # A driven damper stores no energy; a brake takes 10 kJ from a drive, and the rotor stores 0.05 J.
         damper = ('nodes: {m: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz], motion: {x: "0.1*sin(2*pi*t)"}}}\n'
                   "elements: {d: {type: spring_damper, nodes: [ground, m], damping: 1000}}\n"
                   "analysis: [{type: dynamic, duration: 2, step: 1e-2}]\n")
@@ -136,8 +137,8 @@ class SelfJudgement(CommandTest):
             self.assertIn(" of what flowed through (", text)
             self.assertNotIn("nothing moved", text)
             self.assertNotIn("warning:", text)
-        # A pendulum that its steps do not resolve is not hidden by a brake next to it that takes more than its energy
-        # ..
+        # A pendulum that its steps do not resolve is reported, even if a brake next to it dissipates more than its
+        # energy ..
         def with_rotor(inertia, damping, rate, drive):
             model = PENDULUM.format(duration=0.4, step=0.1, rho=1).replace("nodes: {a:", f"nodes: {{r: {{position: [9, 0, 0]{rate}}}, a:")
             model = model.replace("elements: {", f"elements: {{r: {{type: rigid_body, node: r, mass: 1, inertia: [{inertia}, {inertia}, {inertia}]}}, ")
@@ -146,7 +147,7 @@ class SelfJudgement(CommandTest):
         text = self.summary(with_rotor(1e-3, 0.6, "", 'drives: {d: {joint: h, rate: "10"}}\n'))
         self.assertIn(" of what flowed through (", text)
         self.assertIn("warning: such large errors in the balance", text)
-        # .. and next to a heavy flywheel its dissipation is hardly known.
+        # .. and if its dissipation is small relative to the energy of a heavy flywheel.
         text = self.summary(with_rotor(10, 0.02, ", angular_velocity: [0, 0, 50]", ""))
         self.assertIn(" of the largest energy (", text)
         self.assertRegex(text, r"\n  that is 0\.\d+ of the \S+ J that went in or were dissipated: these are not known more accurately\n")
@@ -158,17 +159,17 @@ class SelfJudgement(CommandTest):
                               "errors of the steps\\)", text)
             return [float(number) for number in found.groups()], text
 
-        # An oscillator loses to the scheme alone, whatever its steps.
+        # An oscillator loses energy by the scheme alone, for any steps.
         spring = ("nodes: {m: {position: [1.2, 0, 0], velocity: [0.1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
                   "elements: {m: {type: point_mass, node: m, mass: 1}, s: {type: spring_damper, nodes: [ground, m], "
                   "stiffness: 1, length: 1}}\nanalysis: [{type: dynamic, duration: 60, step: STEP, rho: 0.8}]\n")
-        for step, warned in (("0.3", False), ("1", True)):  # loses 2 % and all of it
+        for step, warned in (("0.3", False), ("1", True)):  # losses of 2 % and of all energy
             (gap, scheme, errors), text = parts(spring.replace("STEP", step).replace("duration: 60", "duration: 600"))
             self.assertLess(gap, 0)
             self.assertLess(abs(errors), 0.05 * abs(gap), text)
             self.assertEqual("warning: the scheme's own dissipation took" in text, warned, text)
             self.assertNotIn("energy grows", text)
-        # Errors add energy to the pendulum, and the dissipation of the scheme hides a part of this.
+        # Errors add energy to the pendulum, and the dissipation of the scheme hides a part of it.
         (gap, scheme, errors), text = parts(PENDULUM.format(duration=0.4, step=0.05, rho=0.8))
         self.assertLess(scheme, 0)
         self.assertGreater(errors, 0.01)
@@ -176,7 +177,7 @@ class SelfJudgement(CommandTest):
         self.assertIn("take smaller steps, or give a `tolerance`", text)
 
     def test_a_motion_that_joints_stop_at_the_start_leaves_rounding_that_is_not_judged(self):
-        # Two gears of different ratio let neither wheel turn: 1 J at 10 rad/s becomes some 1e-30 J.
+        # Two gears of different ratio stop both wheels: 1 J at 10 rad/s becomes about 1e-30 J.
         text = self.summary("""\
 nodes: {a: {position: [0, 0, 0], angular_velocity: [0, 0, 10]}, b: {position: [1, 0, 0]}}
 elements:
@@ -194,7 +195,7 @@ analysis: [{type: dynamic, duration: 0.06, step: 0.001}]
         self.assertNotIn("warning", text)
 
     def test_a_slow_motion_is_judged(self):
-        # A micrometre per second is no rounding.
+        # A micrometre per second is not rounding.
         text = self.summary("""\
 nodes: {a: {position: [0, 0, 0], velocity: [1e-6, 0, 0]}}
 elements: {a: {type: point_mass, node: a, mass: 1e-6}}

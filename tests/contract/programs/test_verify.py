@@ -1,4 +1,4 @@
-"""bielle-reduce --verify and --against: exit statuses and sentences, on superelements and matrix files."""
+"""Tests of bielle-reduce --verify and --against: exit statuses and messages, for superelements and matrix files."""
 
 import os
 import unittest
@@ -13,7 +13,7 @@ LENGTH, STIFFNESS, MASS = 0.5, 1e6, 0.4  # [m], [N], [kg/m]: EA = STIFFNESS, EI 
 
 
 def beam(elements):
-    """K and M of a straight Euler-Bernoulli beam along x (Przemieniecki 1968, chapter 11), consistent mass."""
+    """Returns K and the consistent M of a straight Euler-Bernoulli beam along x (Przemieniecki 1968, chapter 11)."""
     size, count = LENGTH / elements, 6 * (elements + 1)
     bending, torsion, polar = STIFFNESS * 0.02 ** 2 / 12, STIFFNESS * 0.02 ** 2 / 16, MASS * 0.02 ** 2 / 6
     K, M = numpy.zeros((count, count)), numpy.zeros((count, count))
@@ -98,7 +98,7 @@ class Verify(CommandTest):
                 self.assertFalse(os.path.exists(self.path("body.h5")))
 
     def test_a_body_that_cannot_move_as_a_whole(self):
-        """A spring to the ground has no rigid motions that could be proved."""
+        """A body with a spring to the ground has no rigid motions to verify."""
         numpy.savez(self.path("spring.npz"), K=[[1.0]], M=[[1.0]], positions=[[0.0, 0, 0]], unknown_nodes=[1], unknown_components=[0])
         self.assertIn("the body cannot move as a whole by its positions: the unknowns of its nodes cannot follow all six rigid motions",
                       self.verified(1, "spring.npz"))

@@ -1,4 +1,4 @@
-"""Models that the tests share, as text of files, and tests that write such files."""
+"""Texts of models for several tests, and a base class of tests that write such files."""
 
 import os
 import sys
@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from in_folder import InFolder  # noqa: E402
 
-# A double pendulum of bars that falls through large angles, with a formula of the state.
+# A double pendulum of bars, which falls through large angles, with a formula of the state.
 PENDULUM = """\
 mechanism: a double pendulum
 gravity: [0, 0, -9.81]
@@ -26,7 +26,7 @@ analysis:
   - {type: dynamic, duration: 1.2, step: 2e-3}
 """
 
-# A cantilever that is bent by its load, and let go.
+# A cantilever that its load bends and then releases.
 BEAM = """\
 mechanism: a cantilever
 nodes:
@@ -41,7 +41,7 @@ analysis:
   - {type: dynamic, duration: 0.1, step: 1e-3}
 """
 
-# A wheel on an axle, which a torque turns.
+# A wheel on an axle, driven by a torque.
 WHEEL = """\
 nodes: {wheel: {}}
 elements: {wheel: {type: rigid_body, node: wheel, mass: 1, inertia: [1, 1, 2]}}

@@ -1,4 +1,4 @@
-"""Python reproduces runs of bielle-mechanism to the last bit, by whichever interface."""
+"""Tests that Python reproduces runs of bielle-mechanism to the last bit, by each of its interfaces."""
 
 import os
 import subprocess
@@ -17,7 +17,7 @@ EXAMPLES = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] 
 
 
 def recorded(group):
-    """Returns the datasets of an analysis in a results file that Python has as well: all but the events."""
+    """Returns the datasets of an analysis in a results file, except the events, which Python does not have."""
     return {name: values for name, values in valid_values(group).items() if not name.startswith("events/")}
 
 
@@ -35,8 +35,7 @@ class AgainstTheProgram(WithModel):
         expect_equal_values({name: results[name] for name in expected}, expected)
 
     def expect_same_run(self, model):
-        """Runs a model as a whole in memory, with a file, and analysis by analysis in a session, and compares the
-        results."""
+        """Runs a model in memory, with a file, and by single analyses in a session, and compares the results."""
         written = os.path.join(self.folder, "python.h5")
         whole, with_file = bielle.run(model), bielle.run(model, written)
         session = bielle.load(model).session()
@@ -82,12 +81,13 @@ class AgainstTheProgram(WithModel):
                 compared += 1
         self.assertGreater(compared, 12)
         head = results["eigen/displacement"][2, results["eigen/nodes"].index("head")] @ [1, 1j]
-        self.assertGreater(np.abs(head).max(), 0.5)  # the slowest bending moves the head
+        self.assertGreater(np.abs(head).max(), 0.5)  # the lowest bending mode moves the head
         with self.assertRaisesRegex(bielle.InputError, "did you mean 'eigen/kind'"):
             results["eigen/kinds"]
 
     def test_a_campbell_diagram(self):
-        """The example's analysis, from keys: the model is made anew with each speed, here and there."""
+        """This is the example's analysis, from keys; both the program and Python create the model again for each
+        speed."""
         model = os.path.join(EXAMPLES, "rotor.yaml")
         found = bielle.load(model).session().campbell({"from": 0, "to": 120, "count": 25}, parameter="speed", modes=5)
         with h5py.File(self.run_program(model)) as program:
@@ -130,7 +130,7 @@ analysis:
             expected = recorded(program["analysis_1"])
         self.assertTrue(np.array_equal(expected["measures/reach"], measured))
         for name in names:
-            # Alone, a quaternion has w >= 0; in rows it continues the row before.
+            # A single quaternion has w >= 0; a quaternion in a row is continuous with the previous row.
             signs = np.where(expected[name][:, :1] < 0, -1, 1) if name.endswith("rotation") else 1
             self.assertTrue(np.array_equal(expected[name] * signs, np.array(rows[name])), name)
 
@@ -172,7 +172,7 @@ analysis: [{{type: dynamic, duration: 0.5, step: 1e-3}}]
         with h5py.File(self.run_program(self.write_model(text))) as program:
             self.expect_equal(program["analysis_1"], bielle.read(keys).run()[0])
             self.expect_equal(program["analysis_1"], bielle.read(text).run()[0])
-        # The text that the dictionary has become is a file.
+        # The text of the dictionary is a file.
         with h5py.File(self.run_program(self.write_model(bielle.read(keys).text))) as program:
             self.expect_equal(program["analysis_1"], bielle.run(keys)[0])
 

@@ -1,4 +1,4 @@
-"""Models that are put together by calls are those of files."""
+"""Tests that models that are assembled by calls equal those of files."""
 
 import os
 import tempfile

@@ -1,4 +1,5 @@
-"""Numbers and objects with wrong values, and programs that end in the middle: a sentence, never a crash."""
+"""Tests of numbers and objects with wrong values, and of programs that end early: they give a message, never a
+crash."""
 
 import os
 import random
@@ -40,7 +41,7 @@ class Numbers(unittest.TestCase):
         self.session, self.saved = session, session.save()
 
     def test_each_number_of_what_was_saved(self):
-        """A changed number is refused, or the motion goes on, or fails with a sentence."""
+        """A changed number is refused, or the motion continues, or it fails with a message."""
         refused = 0
         other = self.model.session()
         for place in range(len(self.saved)):
@@ -62,7 +63,7 @@ class Numbers(unittest.TestCase):
         for call in (lambda: self.model.session().dynamics(1, 0.01, saved=saved), lambda: self.session.restore(saved)):
             with self.assertRaisesRegex(bielle.InputError, r"number 29 \(from 0\), nan, is not finite"):
                 call()
-        self.assertTrue(self.motion.step())  # the refused value has changed nothing
+        self.assertTrue(self.motion.step())  # the refused value had no effect
 
     def test_states_that_are_none(self):
         session = bielle.read(PENDULUM).session()
@@ -83,7 +84,7 @@ class Numbers(unittest.TestCase):
         state = bielle.State(before)
         angle = 0.3
         state.axes[1] = [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]]
-        session.state = state  # a rotation, to rounding
+        session.state = state  # a rotation up to rounding
         single = state.axes[1].astype(np.float32)
         state.axes[1] = single
         session.state = state

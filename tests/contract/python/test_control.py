@@ -1,4 +1,4 @@
-"""Controllers in Python: inputs that are set each step, against formulas and controllers of the model itself."""
+"""Compares controllers in Python, which set inputs at each step, with formulas and controllers of the model itself."""
 
 import unittest
 
@@ -16,7 +16,7 @@ def torque(time):
 
 
 def turned(time):
-    """The angle of the wheel under that torque, from rest."""
+    """Returns the angle of the wheel under this torque, from rest."""
     return (time / OMEGA - np.sin(OMEGA * time) / OMEGA**2) / INERTIA
 
 
@@ -42,7 +42,7 @@ def by_formula(steps):
 
 class Inputs(unittest.TestCase):
     def orders(self, error):
-        """Orders of convergence from halved steps."""
+        """Returns the orders of convergence from halved steps."""
         errors = [abs(error(steps)) for steps in (100, 200, 400)]
         return np.log2(np.array(errors[:-1]) / errors[1:])
 
@@ -50,13 +50,13 @@ class Inputs(unittest.TestCase):
         np.testing.assert_allclose(self.orders(lambda steps: by_formula(steps) - turned(DURATION)), 2, atol=0.1)
 
     def test_the_value_of_the_end_of_the_step_is_the_formula(self):
-        """The value is smooth and taken at the time of the step's equations: the same motion, to Newton's tolerance
-        (1e-9 of the forces)."""
+        """The value is smooth and taken at the time of the step's equations, so that the motion is the same up to
+        Newton's tolerance (1e-9 of the forces)."""
         for steps in (50, 200):
             self.assertAlmostEqual(driven(steps, 1, True), by_formula(steps), delta=1e-9)
 
     def test_the_value_of_the_beginning_is_of_first_order(self):
-        """A controller that reads the state sees the beginning of the step: half a step late on average."""
+        """A controller that reads the state reads the beginning of the step, which is half a step late on average."""
         for smooth in (True, False):
             np.testing.assert_allclose(self.orders(lambda steps: driven(steps, 0, smooth) - turned(DURATION)), 1, atol=0.1)
 
@@ -93,7 +93,8 @@ KP, KI, KD, LIMIT, TARGET = 600.0, 1500.0, 60.0, 1000.0, 0.3
 
 
 class Pid(unittest.TestCase):
-    """The controller of the model is a part of the equations; that of Python samples at the beginning of each step and holds."""
+    """The controller of the model is a part of the equations; the one in Python samples and holds at the beginning of
+    each step."""
 
     def in_the_model(self, step):
         model = ARM + (f"drives: {{motor: {{joint: shoulder, pid: {{target: {TARGET}, kp: {KP}, ki: {KI}, kd: {KD}, "
@@ -115,7 +116,8 @@ class Pid(unittest.TestCase):
         return np.array(angles)
 
     def test_a_sampled_controller_tends_to_the_continuous_one(self):
-        """Sampling delays the torque by half a step on average: the difference is of first order in the step."""
+        """Sampling delays the torque by half a step on average, so that the difference is of first order in the
+        step."""
         steps = (4e-3, 2e-3, 1e-3, 5e-4)
         differences = [np.abs(self.in_python(step) - self.in_the_model(step)).max() for step in steps]
         orders = np.log2(np.array(differences[:-1]) / differences[1:])

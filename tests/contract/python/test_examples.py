@@ -1,4 +1,4 @@
-"""The examples do what they say."""
+"""Tests that the examples in Python do as documented."""
 
 import os
 import re
@@ -29,7 +29,7 @@ class Examples(unittest.TestCase):
         time, angle, torque = controller.lift(target=0.8, duration=3)
         self.assertAlmostEqual(angle[-1], 0.8, places=3)
         self.assertEqual(abs(torque).max(), 28)
-        # At rest it carries the weight: m g l/2 cos(angle).
+        # At rest the motor carries the weight, m g l/2 cos(angle).
         self.assertAlmostEqual(torque[-1], 4 * 9.81 * 0.4 * np.cos(angle[-1]), places=2)
         self.assertIn("after 2.0 s the arm stands at 0.80", self.run_script("controller.py"))
 
@@ -37,7 +37,7 @@ class Examples(unittest.TestCase):
         values, deviations = identification.identify(identification.measured())
         np.testing.assert_array_less(np.abs(values - [37, 0.4]), 4 * deviations)
         np.testing.assert_array_less(deviations, [0.1, 0.01])
-        # Without noise the error is that of the steps: the trapezoidal rule's period is longer by (omega h)^2/12.
+        # Without noise the error is that of the steps: the period of the trapezoidal rule is longer by (omega h)^2/12.
         values, _ = identification.identify(identification.measured(noise=0))
         omega = np.sqrt(37 / identification.INERTIA)
         self.assertAlmostEqual(values[0] / 37 - 1, (omega * 2e-3)**2 / 6, delta=2e-6)
@@ -52,7 +52,7 @@ class Examples(unittest.TestCase):
         found, missed = optimisation.synthesise(target)
         np.testing.assert_allclose(found, lengths, rtol=0, atol=1e-9)
         self.assertLess(missed, 1e-9)
-        # Places that no four-bar reaches: the result is a minimum, and the sum of squares grows in all directions.
+        # No four-bar reaches these places: the result is a minimum, and the sum of squares grows in all directions.
         wanted = target + 0.01 * np.random.default_rng(2).standard_normal(target.shape)
         found, missed = optimisation.synthesise(wanted)
         self.assertLess(missed, 0.04)
@@ -80,7 +80,7 @@ class Examples(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         lines = done.stdout.splitlines()
-        self.assertGreater(len(lines), 500)  # a step of 2 ms that meets the limit of the torque is two
+        self.assertGreater(len(lines), 500)  # a step of 2 ms in which the torque reaches its limit is divided
         self.assertRegex(lines[-1], r"^2\.4 0\.8\d+ \[Event\(time=0\.\d+, name=\"event 'arrived'\"\)\]$")
 
 

@@ -1,4 +1,4 @@
-"""Ctrl-C ends long computations; the session remains usable."""
+"""Tests that Ctrl-C ends long computations, and that the session remains usable."""
 
 import os
 import signal
@@ -29,7 +29,7 @@ class Interrupts(unittest.TestCase):
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
             call()
-        # (A step takes far less; the machine may be busy.)
+        # A step takes far less, but the machine may be busy.
         self.assertLess(time.monotonic() - sent[0], 5)
         timer.join()
 
@@ -42,7 +42,7 @@ class Interrupts(unittest.TestCase):
         self.assertTrue(motion.step())
         self.assertGreater(motion.time, reached)
         self.interrupted(lambda: motion.advance_to(9e4))
-        # All is as if the motion had not been interrupted, to Newton's tolerance while it is not chaotic.
+        # The motion is the same as without the interruption, up to Newton's tolerance while it is not chaotic.
         session.dynamics(0.1, 2e-3).finish()
         self.assertTrue(np.isfinite(session.state.positions).all())
 

@@ -1,4 +1,4 @@
-"""Leaks: sessions, motions, results, callbacks and errors are created and released."""
+"""Tests for leaks: sessions, motions, results, callbacks and errors are created and released."""
 
 import gc
 import tracemalloc
@@ -10,16 +10,16 @@ from samples import BEAM, PENDULUM
 
 
 def resident():
-    """Memory of this process [kB]."""
+    """Returns the memory of this process [kB]."""
     with open("/proc/self/status", encoding="ascii") as file:
         return next(int(line.split()[1]) for line in file if line.startswith("VmRSS"))
 
 
 def live():
-    """A short life of a session, with every object that could keep a reference to it."""
+    """Creates and releases a session, with every object that could keep a reference to it."""
     model = bielle.read(PENDULUM)
     session = model.session()
-    session.on_step(lambda at: session.time)  # a circle: the session holds the callback, that the session
+    session.on_step(lambda at: session.time)  # a circular reference between session and callback
     session.on_event(lambda at, time, name: session)
     with session.record() as recording:
         motion = session.dynamics(0.02, 1e-3)
@@ -38,7 +38,7 @@ def live():
 
 class Leaks(unittest.TestCase):
     def test_a_thousand_sessions(self):
-        for _ in range(100):  # allocations that are made once
+        for _ in range(100):  # makes the allocations that happen only once
             live()
         gc.collect()
         before = resident()
@@ -58,7 +58,7 @@ class Leaks(unittest.TestCase):
         for _ in range(1000):
             live()
         gc.collect()
-        # NumPy keeps small blocks for later, some 20 kB whatever their number; the smallest object of each would be 50 kB.
+        # NumPy keeps small blocks, about 20 kB for any number of objects; a leak of the smallest object would be 50 kB.
         self.assertLess(tracemalloc.get_traced_memory()[0] - before, 40_000)
 
     def test_circles_are_collected(self):

@@ -1,4 +1,4 @@
-"""Models from files, texts and dictionaries; wrong ones are refused with the sentences of the program."""
+"""Tests of models from files, texts and dictionaries; wrong ones are refused with the messages of the program."""
 
 import ast
 import os
@@ -12,7 +12,7 @@ import bielle
 from samples import BEAM, PENDULUM, WHEEL, WithModel
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-# Two parts that the ground holds, and a bar between them that is longer than their distance.
+# Two parts are fixed to the ground, and the bar between them is longer than their distance.
 OPEN = """\
 nodes: {a: {position: [1, 0, 0]}, b: {position: [2, 0, 0]}}
 elements:
@@ -24,7 +24,7 @@ joints:
   bar: {type: distance, nodes: [a, b], length: 3}
 analysis: [{type: assembly}]
 """
-# Nothing holds the wheel: a static analysis finds no equilibrium under a torque.
+# Nothing holds the wheel, so that a static analysis finds no equilibrium under a torque.
 SINGULAR = """\
 nodes: {wheel: {}}
 elements: {wheel: {type: rigid_body, node: wheel, mass: 1, inertia: [1, 1, 2]}}

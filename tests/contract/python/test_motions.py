@@ -1,4 +1,4 @@
-"""Motions: their steps, their ends, callbacks."""
+"""Tests of motions: steps, ends, callbacks."""
 
 import gc
 import unittest
@@ -61,13 +61,13 @@ class Motions(unittest.TestCase):
             for call in (motion.step, motion.finish, lambda: motion.advance_to(0.06), lambda: next(iter(motion))):
                 with self.assertRaisesRegex(bielle.Error, "this motion has ended: its session was asked for something else"):
                     call()
-            self.assertAlmostEqual(motion.time, 0.05)  # it can still be read
+            self.assertAlmostEqual(motion.time, 0.05)  # the motion can still be read
             self.assertEqual(motion.state.positions.shape[1], 3)
             motion = another if isinstance(another, bielle.Motion) else motion
         self.assertTrue(session.moving)
 
     def test_lifetimes(self):
-        """Each object keeps those to which it refers, in any order of deletion."""
+        """Each object keeps the objects to which it refers, in any order of deletion."""
         motion = bielle.read(PENDULUM).session().dynamics(0.1, 1e-2)
         gc.collect()
         motion.finish()
@@ -77,7 +77,7 @@ class Motions(unittest.TestCase):
         gc.collect()
         self.assertAlmostEqual(session.time, 0.1)
         self.assertFalse(session.moving)
-        # A motion runs while another one is in progress.
+        # Runs a motion while another one is in progress.
         first = session.dynamics(0.1, 1e-2)
         second = session.dynamics(0.1, 1e-2)
         del first
@@ -158,8 +158,8 @@ class Motions(unittest.TestCase):
         motion.finish()
         other = bielle.read(PENDULUM).session()
         other.dynamics(0.1, 1e-2).finish()
-        # A run that ends early leaves a state to continue from, at which tangents are made anew: equal to Newton's
-        # tolerance.
+        # A run that ends early can be continued. Tangents are computed again there, so that results are equal up to
+        # Newton's tolerance.
         np.testing.assert_allclose(session.state.positions, other.state.positions, atol=1e-9)
 
     def test_callbacks_may_save(self):

@@ -1,4 +1,5 @@
-"""bielle.rotations: round trips, tangent operators and accelerations against differences, SciPy, and wrong arguments."""
+"""Tests of bielle.rotations: round trips, comparison of tangent operators and accelerations with differences, SciPy,
+and wrong arguments."""
 
 import math
 import unittest
@@ -11,7 +12,7 @@ import bielle
 from bielle import rotations
 
 KINDS = rotations.PARAMETRISATIONS
-ANGLES = {"euler": "ZXZ", "bryant": "XYZ"}  # SciPy's words for turns about axes that go along
+ANGLES = {"euler": "ZXZ", "bryant": "XYZ"}  # SciPy's words for rotations about moving axes
 EPSILON = np.finfo(float).eps
 
 
@@ -21,20 +22,20 @@ def skew(v):
 
 
 def samples(kind):
-    """Matrices: random ones, and turns by angles at which something may go wrong. Rodrigues vectors lack half turns."""
+    """Returns random matrices, and rotations by critical angles. Rodrigues vectors have no half turns."""
     random = np.random.default_rng(1)
     matrices = [Rotation.random(random_state=k).as_matrix() for k in range(60)]
     axes = [v / np.linalg.norm(v) for v in random.normal(size=(5, 3))] + [np.eye(3)[k] for k in range(3)]
     turns = [0, 1e-9, 1e-4, 1, math.pi / 2, math.pi - 1e-3, math.pi - 1e-9, math.pi, 3, 2 * math.pi, 40]
     for angle in turns:
         if kind == "rodrigues" and abs(angle - math.pi) < 1e-6:
-            continue  # the first is near infinity, where digits are lost; the test of half turns has them
+            continue  # the first one is near infinity, where digits are lost; another test has half turns
         matrices += [expm(angle * skew(axis)) for axis in axes]
     return np.array(matrices)
 
 
 def regular_parameters(kind, count=40):
-    """Parameters away from singularities, not all of them principal."""
+    """Returns parameters away from singularities, not all of them principal."""
     random = np.random.default_rng(2)
     p = random.uniform(-1.4, 1.4, size=(count, 4 if kind == "quaternion" else 3))
     if kind == "euler":
@@ -50,7 +51,8 @@ class RoundTrips(unittest.TestCase):
             with self.subTest(kind):
                 R = samples(kind)
                 p = rotations.from_matrix(kind, R)
-                # Rounding of R and of the way there and back; Rodrigues vectors lose 1/(pi - phi) digits on the way.
+                # The tolerance is the rounding of R and of both conversions; Rodrigues vectors lose a factor of 1/(pi -
+                # phi).
                 np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=2e-13 if kind == "rodrigues" else 2e-14)
 
     def test_parameters_of_half_turns(self):
@@ -63,7 +65,7 @@ class RoundTrips(unittest.TestCase):
     def test_small_rotations_keep_their_digits(self):
         psi = np.array([3e-9, -2e-9, 1e-9])
         q = rotations.convert(psi, "rotation_vector", "quaternion")
-        np.testing.assert_allclose(q[1:], psi / 2, rtol=1e-7)  # R = 1 + 1e-9: rounding of R leaves seven digits
+        np.testing.assert_allclose(q[1:], psi / 2, rtol=1e-7)  # R = 1 + 1e-9, of which rounding leaves seven digits
         for kind, factor in (("rodrigues", 0.5), ("conformal", 1.0)):
             np.testing.assert_allclose(rotations.convert(psi, "rotation_vector", kind), factor * psi, rtol=1e-7)
 
@@ -81,7 +83,7 @@ class RoundTrips(unittest.TestCase):
             q = np.roll(known.as_quat(), 1)
             self.assertLess(min(np.abs(p - q).max(), np.abs(p + q).max()), 1e-14)
             psi = known.as_rotvec()
-            if np.linalg.norm(psi) < math.pi - 1e-6:  # at half turns the sign of the axis is free
+            if np.linalg.norm(psi) < math.pi - 1e-6:  # at half turns the sign of the axis is arbitrary
                 np.testing.assert_allclose(rotations.from_matrix("rotation_vector", R), psi, atol=1e-13)
         random = np.random.default_rng(3)
         for kind, axes in ANGLES.items():
@@ -143,7 +145,8 @@ class Complements(unittest.TestCase):
 
 
 class Derivatives(unittest.TestCase):
-    """Steps h of central differences: truncation h^2 of numbers of some 10, rounding 1e-16/h."""
+    """Central differences with steps h have a truncation of h^2 times numbers of about 10, and a rounding of
+    1e-16/h."""
 
     H, TOLERANCE = 1e-5, 3e-9
 
@@ -183,7 +186,7 @@ class Derivatives(unittest.TestCase):
         a, b, c = (np.random.default_rng(5).normal(size=(3, 3)) * 0.4)
         h = 1e-3
 
-        def R(t):  # neither about a fixed axis nor steady
+        def R(t):  # the rotation is neither about a fixed axis nor steady
             return expm(skew(a * t + b * t * t)) @ expm(skew(c * np.sin(2 * t))) @ expm(skew([0.5, 0.9, -0.4]))
 
         for kind in KINDS:
@@ -192,7 +195,8 @@ class Derivatives(unittest.TestCase):
                     return rotations.nearest(kind, rotations.from_matrix(kind, R(s)), rotations.from_matrix(kind, R(t))) \
                         if kind in ("rotation_vector", "quaternion", "euler", "bryant") else rotations.from_matrix(kind, R(s))
 
-                # Differences of fourth order: h^4 = 1e-12 for first ones; rounding of second ones 1e-15/h^2 = 1e-9.
+                # Differences of fourth order have an error of h^4 = 1e-12 for first derivatives, and a rounding of
+                # 1e-15/h^2 = 1e-9 for second ones.
                 p = at(t)
                 rate = (8 * (at(t + h) - at(t - h)) - (at(t + 2 * h) - at(t - 2 * h))) / (12 * h)
                 acceleration = (16 * (at(t + h) + at(t - h)) - (at(t + 2 * h) + at(t - 2 * h)) - 30 * p) / (12 * h * h)
@@ -229,7 +233,7 @@ class Singularities(unittest.TestCase):
                     else:  # the parameters grow beyond all bounds
                         fraction = {"rodrigues": 2, "conformal": 4}[kind]
                         self.assertGreater(abs(math.tan(value / fraction)), 1e14)
-            for value in [v + 0.5 for v in about.values]:  # elsewhere it is the closed form, which is not zero
+            for value in [v + 0.5 for v in about.values]:  # elsewhere the value is the closed form, which is not zero
                 p = np.array([0.3, value, -0.4]) if about.angle == "b" else value * axis
                 closed = {"euler": -math.sin(value), "bryant": math.cos(value),
                           "rotation_vector": 2 * (1 - math.cos(value)) / value ** 2}
@@ -239,9 +243,11 @@ class Singularities(unittest.TestCase):
 
 class Rows(unittest.TestCase):
     def follow(self, kind, R, step):
-        """Continuous parameters of rows of matrices, which come back and make no step larger than that."""
+        """Asserts that continuous parameters of rows of matrices give the matrices, and make no larger step than
+        `step`."""
         p = rotations.continuous(kind, rotations.from_matrix(kind, R))
-        np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=2e-8)  # within the lock 1e-8 is left
+        # An accuracy of 1e-8 remains next to the singularity.
+        np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=2e-8)
         self.assertLess(np.abs(np.diff(p, axis=0)).max(), step)
         return p
 
@@ -261,7 +267,7 @@ class Rows(unittest.TestCase):
     def test_angles_go_through_their_singularities(self):
         t = np.linspace(0, 1, 501)
         for kind in ANGLES:
-            # The middle angle goes round and round while the others move slowly.
+            # The middle angle makes several turns while the others change slowly.
             angles = np.column_stack([0.4 + 0.3 * t, 0.2 + 40 * t, -0.3 + 0.5 * t * t])
             p = self.follow(kind, rotations.to_matrix(kind, angles), 0.1)
             start = rotations.principal(kind, angles[0])
@@ -269,7 +275,7 @@ class Rows(unittest.TestCase):
             np.testing.assert_allclose(p, angles, atol=1e-9)
 
     def test_rows_within_a_singularity(self):
-        # First b rises to its singularity, then the body turns there about the outer axis, then b goes on.
+        # First b rises to its singularity, then the body rotates there about the outer axis, then b continues.
         n = 200
         for kind, top in (("bryant", math.pi / 2), ("euler", math.pi)):
             rise = np.column_stack([np.full(n, 0.4), np.linspace(top - 1, top, n), np.full(n, -0.3)])
@@ -284,14 +290,14 @@ class Rows(unittest.TestCase):
         angles = np.column_stack([np.full(50, 1.1), b, np.full(50, -1.1)])
         p = self.follow("euler", rotations.to_matrix("euler", angles), 0.1)
         np.testing.assert_allclose(p, angles, atol=1e-12)
-        always = np.column_stack([np.linspace(0, 20, 100), np.zeros((100, 2))])  # a turn about z alone
+        always = np.column_stack([np.linspace(0, 20, 100), np.zeros((100, 2))])  # a rotation about z alone
         np.testing.assert_allclose(self.follow("euler", rotations.to_matrix("euler", always), 0.3), always, atol=1e-12)
 
     def test_a_tumbling_motion_has_no_jumps(self):
         t = np.linspace(0, 10, 20001)
         R = np.array([expm(skew([0.3 * s, 2 * math.sin(s), 0])) @ expm(skew([0, 0, 5 * s])) for s in t])
         for kind in ("bryant", "euler", "quaternion"):
-            # Between rows the body turns by 5 mrad; angles by 1/sin(b) times that.
+            # The body rotates by 5 mrad between rows, and angles change by 1/sin(b) times that.
             p = rotations.continuous(kind, rotations.from_matrix(kind, R))
             np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=2e-8)
             self.assertLess(np.abs(np.diff(p, axis=0)).max(), 0.5)
@@ -399,7 +405,7 @@ MODEL = {
 
 
 class Quantities(unittest.TestCase):
-    """Orientations as results and in formulas."""
+    """Tests of orientations as results and in formulas."""
 
     def test_results_are_continuous(self):
         session = bielle.read(MODEL).session()
@@ -412,7 +418,8 @@ class Quantities(unittest.TestCase):
             self.assertIn(f"nodes/body/{kind}", results)
             self.assertFalse(p.flags.writeable)
             np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=1e-12)
-            # Between rows the body turns by 21 mrad, angles by up to 1/cos b = 58 times that: 1.2 rad, where a jump has 3.
+            # The body rotates by 21 mrad between rows. Angles change by up to 1/cos b = 58 times that, 1.2 rad; a jump
+            # would be 3 rad.
             self.assertLess(np.abs(np.diff(p, axis=0)).max(), 2.0)
             self.assertGreater(np.ptp(p, axis=0).max(), 2 * math.pi)
             principal = session[f"nodes/body/{kind}"]
@@ -421,7 +428,8 @@ class Quantities(unittest.TestCase):
             np.testing.assert_allclose([session.measure(f"body.{kind}.{n}") for n in names], principal, atol=1e-12)
         np.testing.assert_allclose(results["measures/a"][0], 0.4, atol=1e-15)
         bryant = rotations.from_matrix("bryant", R)
-        # R is a product of 1600 rounded rotations, and next to the singularity cos b is 0.017: 2e-11.
+        # R is a product of 1600 rounded rotations, and cos b is 0.017 next to the singularity, so that 2e-11 is the
+        # accuracy.
         np.testing.assert_allclose(results["measures/a"], bryant[:, 0], atol=1e-10)
         euler, Omega = rotations.from_matrix("euler", R), results["nodes/body/velocity"][:, 3:]
         np.testing.assert_allclose(results["measures/rate"], rotations.parameter_rate("euler", euler, Omega)[:, 1], atol=1e-10)

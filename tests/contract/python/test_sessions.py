@@ -1,4 +1,4 @@
-"""Sessions: reading, saving and recording; refusals."""
+"""Tests of sessions: reading, saving, recording, and refusals."""
 
 import os
 import tempfile
@@ -67,7 +67,7 @@ class Sessions(unittest.TestCase):
         self.assertEqual(session.measure("reach"), np.linalg.norm(session.node("lower").position))
 
     def test_a_model_without_a_measure_of_the_name(self):
-        """No formula of the wheel reads its angle."""
+        """No formula reads the angle of the wheel."""
         session = bielle.read(WHEEL).session()
         session.inputs["torque"] = 4
         session.dynamics(0.5, 1e-2).finish()
@@ -95,7 +95,7 @@ class Sessions(unittest.TestCase):
             one[0, 0] = 1
         kept = one[-1].copy()
         del results, other
-        np.testing.assert_array_equal(one[-1], kept)  # the view keeps what it shows
+        np.testing.assert_array_equal(one[-1], kept)  # the view keeps the array alive
         self.assertEqual(self.refusal(lambda: bielle.read(PENDULUM).run()["nodes/uper/position"]),
                          "nothing was recorded as 'nodes/uper/position'; did you mean 'nodes/upper/position'?")
 
@@ -150,7 +150,7 @@ class Sessions(unittest.TestCase):
         self.assertEqual(motion.time, 0.4)
         motion.finish()
         np.testing.assert_array_equal(session.state.positions, end.positions)
-        # The saved motion continues in another session, of another copy of the model.
+        # The saved motion continues in another session with another copy of the model.
         other = bielle.read(PENDULUM).session()
         self.assertIn("no motion is under way", self.refusal(lambda: other.restore(saved)))
         other.dynamics(1, 1e-3, saved=saved).finish()
@@ -172,7 +172,7 @@ class Sessions(unittest.TestCase):
         session.state = velocities
         session.dynamics(0.5, 1e-2).finish()
         self.assertAlmostEqual(session.measure("axle.angle"), angle + 1, places=12)
-        positions = session.state.positions  # outlives its state
+        positions = session.state.positions  # the object outlives its state
         self.assertEqual(positions.shape, (2, 3))
         with self.assertRaisesRegex(bielle.InputError, "another model"):
             bielle.read(BEAM).session().state = state
@@ -230,7 +230,7 @@ class Sessions(unittest.TestCase):
                 rows = len(file["time"])
         self.assertEqual((rows, len(recording[0].time)), (27, 27))
         session.remove_callback(give_up)
-        self.assertEqual(len(session.run(0).time), 601)  # and it goes on from there
+        self.assertEqual(len(session.run(0).time), 601)  # the motion continues from there
 
     def test_notes(self):
         session = bielle.read(PENDULUM).session()

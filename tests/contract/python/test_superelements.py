@@ -1,4 +1,5 @@
-"""Superelements of arrays: the file of matrices that a program gets, and the messages of wrong arrays."""
+"""Tests of superelements from arrays: the file of matrices that the program gets, and the messages about wrong
+arrays."""
 
 import os
 import stat
@@ -10,7 +11,7 @@ import h5py
 import numpy as np
 import scipy.sparse
 
-# A bar along x between two nodes: 3 unknowns each, and an amplitude.
+# A bar along x between two nodes with 3 unknowns each, and an amplitude.
 K = np.zeros((7, 7))
 K[np.ix_([0, 3], [0, 3])] = [[1, -1], [-1, 1]]
 K[6, 6] = 4
@@ -79,7 +80,7 @@ class Superelements(unittest.TestCase):
             bielle.superelement(self.output, K[:6, :6], M[:6, :6], PLACES, interfaces={"tip": 9})
 
     def test_the_program_is_called(self):
-        """A stand-in for bielle-reduce tells its arguments as an error."""
+        """A stand-in for bielle-reduce prints its arguments as an error."""
         program = os.path.join(self.folder, "bielle-reduce")
         with open(program, "w", encoding="utf-8") as file:
             file.write('#!/bin/sh\ntest -f "$2" && echo "$1 $3 $4 $5 $6" >&2\nexit 1\n')

@@ -1,4 +1,5 @@
-"""Threads of Python: other ones run while a session computes, sessions compute at the same time, one session for one thread."""
+"""Tests of threads of Python: others run while a session computes, several sessions compute at the same time, and a
+session belongs to one thread."""
 
 import os
 import tempfile
@@ -41,7 +42,7 @@ class Threads(unittest.TestCase):
                 np.testing.assert_array_equal(run["nodes/tip/position"], runs[0]["nodes/tip/position"])
 
     def in_the_background(self, session, motion, act):
-        """act() while another thread moves the motion on."""
+        """Calls act() while another thread continues the motion."""
         started, end = threading.Event(), []
 
         def watch(at):

@@ -1,4 +1,4 @@
-"""The page of bielle-view out of Python: run.show() and bielle.view."""
+"""Tests of the page of bielle-view from Python: run.show() and bielle.view."""
 
 import html
 import importlib.util
@@ -22,7 +22,7 @@ class Views(InFolder):
         cell = shown._repr_html_()
         self.assertTrue(cell.startswith("<iframe srcdoc=\"&lt;!DOCTYPE html&gt;") and cell.endswith("></iframe>"), cell[:60])
         self.assertIn("height: 321px", cell)
-        self.assertEqual(cell.count("<"), 2)  # the page is an attribute, and ends nowhere before its end
+        self.assertEqual(cell.count("<"), 2)  # the page is an escaped attribute, so that only two tags remain
         with open(shown.save(self.path("machine.html")), encoding="utf-8") as file:
             self.assertEqual(file.read(), shown.page)
 

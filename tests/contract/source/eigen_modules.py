@@ -1,7 +1,7 @@
-"""Finds modules of Eigen that a source uses and does not include, itself or through its own headers.
+"""Finds modules of Eigen that a source uses but does not include, directly or through its own headers.
 
-With precompiled headers such a source compiles all the same, and without them the compiler is silent as well: the members
-are declared in Eigen/Core, and only the linker misses them.
+Such a source compiles with precompiled headers, and without them as well: Eigen/Core declares the members, and only the
+linker reports missing definitions.
 """
 
 import os
@@ -9,8 +9,8 @@ import re
 
 from includes import INCLUDE, sources
 
-# Eigen/LU also defines `inverse()`, but so do arrays, diagonals and rotations, and the text does not show which of them
-# is meant.
+# Eigen/LU also defines `inverse()`, but arrays, diagonals and rotations do so as well, and the text does not
+# distinguish them.
 USES = {
     "Geometry": re.compile(r"\.cross\(|\.unitOrthogonal\(|\bEigen::(Quaterniond|AngleAxisd|Isometry3d)\b"),
     "LU": re.compile(r"\.determinant\(|[pP]artialPivLu|[fF]ullPivLu|\.lu\(\)"),
@@ -20,7 +20,7 @@ USES = {
     "Eigenvalues": re.compile(r"\bEigen::\w*EigenSolver<"),
     "SparseCore": re.compile(r"\bEigen::SparseMatrix<"),
 }
-# Modules that a header of Eigen includes besides itself.
+# Modules that a header of Eigen also includes.
 BRINGS = {"Dense": {"Geometry", "LU", "Cholesky", "QR", "SVD", "Eigenvalues"},
           "SVD": {"QR"}, "Eigenvalues": {"Cholesky", "LU", "QR", "Geometry"}, "QR": {"Cholesky"}, "Geometry": {"SVD", "LU", "QR"},
           "SparseCholesky": {"SparseCore"}, "SparseLU": {"SparseCore"}, "SparseQR": {"SparseCore"},
@@ -43,7 +43,7 @@ def modules_included(text):
 
 
 def missing_modules(root):
-    """All faults, as `file: Eigen/Module`."""
+    """Returns all errors, as `file: Eigen/Module`."""
     texts, reached = {}, {}
 
     def text_of(path):
@@ -54,7 +54,7 @@ def missing_modules(root):
 
     def modules_of(path):
         if path not in reached:
-            reached[path] = set()  # ends a circle of includes
+            reached[path] = set()  # ends circular includes
             reached[path] = modules_included(text_of(path)).union(*(modules_of(own) for own in OWN.findall(text_of(path))))
         return reached[path]
 

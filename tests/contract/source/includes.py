@@ -1,8 +1,8 @@
-"""The rule of which folder may include which other, which is the layout of the project.
+"""The rule that says which folders a folder may include, which is the layout of the project.
 
-A folder includes only from itself and from those before it in its program's list. `mechanism` may include from `reduce`
-the common floor, the superelement, dense algebra and eigenpairs; `reduce` includes nothing of `mechanism`. Moving parts
-(elements, joints) and solving parts (systems, solvers) share the model, and include nothing of each other.
+A folder includes only from itself and from the previous ones in its program's list. `mechanism` may include the common
+code, the superelement, dense algebra and eigenpairs from `reduce`; `reduce` includes nothing of `mechanism`. Moving
+parts (elements, joints) and solving parts (systems, solvers) share the model, and include nothing of each other.
 """
 
 import os
@@ -26,7 +26,7 @@ SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "sol
 
 
 def forbidden(folder, wanted):
-    """Tells whether a folder of the mechanism must not include one before it."""
+    """Tells whether a folder of the mechanism must not include a previous one of the list."""
     if folder in SOLVING:
         return wanted in COMPONENTS + ["reading"] or {folder, wanted} == {"solvers/statics", "solvers/dynamics"}
     if folder.split("/")[0] in ("elements", "joints", "hydraulics") and wanted.startswith("elements/"):
@@ -38,13 +38,15 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 
 
 def place_of(path):
-    """Program and folder of a file or include path: ("reduce", "mesh"), ("mechanism", "joints/pairs"), ("mechanism", "")."""
+    """Returns program and folder of a file or include path: ("reduce", "mesh"), ("mechanism", "joints/pairs"),
+    ("mechanism", "")."""
     program, *rest = path.split("/")
     return program, "/".join(rest[:-1])
 
 
 def fault_of(path, included):
-    """The reason why the file at `path` must not include `included`, or None. Both are relative to the project."""
+    """Returns the reason why the file at `path` must not include `included`, or None. Both are relative to the
+    project."""
     program, folder = place_of(path)
     other, wanted = place_of(included)
     if other not in FOLDERS or "/" not in included:
@@ -66,7 +68,7 @@ def fault_of(path, included):
 
 
 def sources(root):
-    """Paths of all C++ files of both programs, relative to the project."""
+    """Returns the paths of all C++ files of both programs, relative to the project."""
     for program in FOLDERS:
         for folder, _, files in os.walk(os.path.join(root, program)):
             for name in sorted(files):
@@ -75,7 +77,7 @@ def sources(root):
 
 
 def faults(root):
-    """All includes that break the rule, as `file:line: include: why`."""
+    """Returns all includes that break the rule, as `file:line: include: why`."""
     found = []
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8") as file:

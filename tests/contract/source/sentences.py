@@ -10,14 +10,14 @@ import re
 import tokenize
 
 OPENERS = r"(?:what|where|of|who)\b"
-# The first word of a text, after marks of lists and tables and the tags of documented parameters.
+# First word of a text, after marks of lists and tables and the tags of documented parameters.
 FIRST = re.compile(rf"[\W_]*(?:@t?param\s+\S+\s+|@(?!t?param)\w+\s+)?[\W_]*({OPENERS})", re.IGNORECASE)
-# A capital after the end of a sentence; initials and abbreviations of one letter are no ends.
+# Capital letter after the end of a sentence; initials and abbreviations of one letter are not ends.
 LATER = re.compile(r"(?<![\s.(][A-Z])[.!?]['\")]*\s+['\"(*]*(What|Where|Of|Who)\b")
-# Literals of C++, in which // begins no comment, and comments.
+# Comments, and literals of C++, in which // begins no comment.
 CPP = re.compile(r'R"(?P<d>[^(\s]*)\((?:.|\n)*?\)(?P=d)"|"(?:\\.|[^"\\\n])*"|\b\d[\w\'.]*|\'(?:\\.|[^\'\\\n])*\''
                  r"|(?P<line>//[^\n]*)|/\*(?P<block>(?:.|\n)*?)\*/")
-# A cell of a table that quotes an example of a sentence.
+# Cell of a table that quotes a sentence as an example.
 QUOTED = re.compile(r'\s*".*"\s*')
 MARKDOWN = (".md",)
 HASHES = (".cmake", ".txt", ".yaml", ".yml", ".in")
@@ -25,13 +25,13 @@ SCRIPTS = ("bash", "sh", "python3")
 
 
 def openers(text):
-    """The opening words of the sentences of a text, a comment or a paragraph."""
+    """Returns the opening words of the sentences of a text, a comment or a paragraph."""
     first = FIRST.match(text)
     return ([first.group(1)] if first else []) + LATER.findall(text)
 
 
 def joined(lines):
-    """[line, text] of comments given as (line, column, text).
+    """Returns [line, text] of comments that are given as (line, column, text).
 
     Comments in successive lines of one column are one text, which ends at tags and entries of lists.
     """
@@ -77,7 +77,7 @@ def python_texts(source):
 
 
 def hash_texts(source):
-    """Comments of CMake, YAML and shells."""
+    """Returns the comments of CMake, YAML and shells."""
     lines = []
     for number, line in enumerate(source.split("\n"), 1):
         comment = re.search(r"(?:^|\s)#(?: |$)", line)
@@ -87,7 +87,7 @@ def hash_texts(source):
 
 
 def markdown_texts(source):
-    """Paragraphs, entries of lists, cells of tables, and comments of examples; headings may be questions."""
+    """Returns paragraphs, entries of lists, cells of tables, and comments of examples; headings may be questions."""
     lines, texts, fenced = [], [], False
     for number, line in enumerate(source.split("\n"), 1):
         if line.lstrip().startswith("```"):
@@ -102,7 +102,7 @@ def markdown_texts(source):
 
 
 def texts_of(path, source):
-    """[line, text] of the comments of a file, or None for a file of another kind."""
+    """Returns [line, text] of the comments of a file, or None for a file of another kind."""
     shebang = re.match(r"#!.*[/ ](\w+)", source)
     script = shebang.group(1) if shebang and shebang.group(1) in SCRIPTS else None
     if path.endswith((".cpp", ".hpp", ".geo")):
@@ -115,7 +115,7 @@ def texts_of(path, source):
 
 
 def area_of(path):
-    """The part of the project that has a limit of its own."""
+    """Returns the part of the project to which a file belongs."""
     first = path.split(os.sep)[0]
     if first == "mechanism" and path.endswith((".cpp", ".hpp")):
         return "mechanism (C++)"
@@ -123,7 +123,7 @@ def area_of(path):
 
 
 def faults(root):
-    """{area: [`file:line: opener: text`]} of all sources and documents."""
+    """Returns {area: [`file:line: opener: text`]} of all sources and documents."""
     found = {}
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(name for name in folders if name not in ("build", ".git"))

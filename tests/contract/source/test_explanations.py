@@ -1,4 +1,5 @@
-"""The explanations of messages: each message is in the sources, each key exists, each entry has cause and cure."""
+"""Tests the explanations of messages: each message is in the sources, each key exists, and each entry has cause and
+cure."""
 
 import glob
 import json
@@ -13,12 +14,13 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.manual import source_messages  # noqa: E402
 
 PAGES = os.path.join(REPOSITORY, "mechanism", "manual", "messages", "[a-z]*.md")
-OTHER_WORDS = {  # in code of the pages: functions of formulas, options and words of other programs, placeholders
+# Other words in code of the pages: functions of formulas, options and words of other programs, placeholders.
+OTHER_WORDS = {
     "if", "sign", "max", "min", "step", "spline", "cos", "pi", "nu_xy", "nu_yx", "equivalence", "created_by", "true", "t", "x"}
 
 
 def words_of_schemas():
-    """Keys and words of the input files, and types of their entries."""
+    """Returns keys and words of the input files, and types of their entries."""
     words = set()
 
     def collect(value):

@@ -1,4 +1,4 @@
-"""Every header compiles alone: whoever includes it needs to know nothing else.
+"""Tests that every header compiles alone, so that including it needs nothing else.
 
 The compiler is called as for a source of the same folder (`compile_commands.json` of the build), but for a file that holds the
 header twice, and to check it only. Headers that include Eigen's core, themselves or by others, get it precompiled: they have
@@ -35,7 +35,7 @@ def compilers():
 
 
 def compiled_by(file):
-    """The sources that a file of the build compiles: itself, or those of a batch (`BIELLE_UNITY`)."""
+    """Returns the sources that a file of the build compiles: itself, or those of a batch (`BIELLE_UNITY`)."""
     if "/Unity/" not in file:
         return [file]
     with open(file, encoding="utf-8") as batch:
@@ -43,7 +43,8 @@ def compiled_by(file):
 
 
 def without_help(words):
-    """A compiler call without ccache (`env NAME=VALUE ccache`) and without the precompiled header that goes first."""
+    """Returns a compiler call without ccache (`env NAME=VALUE ccache`) and without the precompiled header at its
+    begin."""
     while os.path.basename(words[0]) in ("env", "ccache") or re.match(r"\w+=", words[0]):
         words = words[1:]
     while "-include" in words:
@@ -65,7 +66,8 @@ def includes_of(header, known):
 
 
 def flags_of(call):
-    """The arguments of a compiler call on which a precompiled header depends: all but the folders of includes."""
+    """Returns the arguments of a compiler call on which a precompiled header depends: all except the folders of
+    includes."""
     return tuple(word for before, word in zip(["", *call], call) if "-isystem" not in (before, word) and not word.startswith("-I"))
 
 

@@ -1,4 +1,4 @@
-"""Includes go upwards in the list of folders only, and reach the modules of Eigen that are used."""
+"""Tests that includes follow the list of folders, and that sources include the modules of Eigen that they use."""
 
 import os
 import unittest

@@ -1,4 +1,4 @@
-"""Files that are written from the tables of keys are up to date: `tools/keys` writes them."""
+"""Tests that the files that `tools/keys` writes from the tables of keys are up to date."""
 
 import os
 import runpy

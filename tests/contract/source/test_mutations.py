@@ -1,4 +1,4 @@
-"""The deliberate errors of tests/mutation can be made: the text of each stands once in its source."""
+"""Tests that the deliberate errors of tests/mutation can be made: the text of each occurs once in its source."""
 
 import os
 import subprocess

@@ -1,4 +1,5 @@
-"""Reported and compared values come from reactions of smallest norm; multipliers themselves are for equations alone."""
+"""Tests that reported and compared values come from reactions of smallest norm; only equations use multipliers
+themselves."""
 
 import os
 import re
@@ -6,7 +7,7 @@ import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 FOLDERS = ("laws", "contacts", "measures", "elements", "joints", "hydraulics", "analyses", "session", "io", "python")
-# Functions that write the equations of motion or parts of them, or compare the unknowns that these read.
+# Functions that write parts of the equations of motion, or compare the unknowns in them.
 EQUATIONS = {"add_residual", "add_tangent", "add_kept", "add_kept_tangent", "evaluate_motion", "collect_unknowns"}
 FUNCTION = re.compile(r"(\w+)\([^()]*\bLocalState& ")
 MULTIPLIERS = re.compile(r"[.>]multiplier\(\)")

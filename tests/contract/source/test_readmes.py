@@ -1,4 +1,4 @@
-"""The options of commands, files and headings that the pages name must exist."""
+"""Tests that the options of commands, files and headings that the pages name exist."""
 
 import glob
 import os
@@ -25,12 +25,12 @@ def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            if name.endswith(".md") and name != "CHANGELOG.md":  # which names what there was
+            if name.endswith(".md") and name != "CHANGELOG.md":  # names former things
                 yield os.path.join(folder, name)
 
 
 def anchor(heading):
-    """The anchor that GitHub makes of a heading."""
+    """Returns the anchor that GitHub makes from a heading."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
@@ -81,7 +81,7 @@ class Readmes(unittest.TestCase):
         for path, text in self.texts.items():
             for name in re.findall(rf"[`\s](?:\./)?((?:{folders})/[\w./-]+[A-Za-z0-9])(?![\w*<{{])", text):
                 nearby = os.path.join(os.path.dirname(path), name)
-                if name.endswith(".h5"):  # made by commands
+                if name.endswith(".h5"):  # files that commands write
                     continue
                 found = [place for start in (os.path.join(REPOSITORY, name), nearby) for place in (start, *glob.glob(start + ".*"))]
                 self.assertTrue(any(map(os.path.exists, found)), f"{path}: {name}")

@@ -1,4 +1,4 @@
-"""Small tetrahedral meshes of a box for the tests of the tools: points, cells in VTK's node order, sets by geometry."""
+"""Small tetrahedral meshes of a box for tests of the tools: points, cells in VTK's node order, and sets by geometry."""
 
 import os
 import sys

@@ -1,5 +1,5 @@
-"""Boxes meshed with each type of solid cell, and mixtures, as decks of Nastran and Abaqus. Node orders are typed here from
-the manuals of the programs, independent of those of the tools."""
+"""Boxes meshed with each type of solid cell, and mixtures, as decks of Nastran and Abaqus. The node orders are copied
+from the manuals of the programs, independently of the tools."""
 
 import itertools
 
@@ -7,7 +7,7 @@ import numpy as np
 
 import box_mesh  # noqa: F401  (paths)
 
-# Corners, from 1, at the ends of the edges of the mid-side nodes.
+# Corners, from 1, at the ends of the edges that have the mid-side nodes.
 ABAQUS = {"tetra": "12 23 31 14 24 34", "hexahedron": "12 23 34 41 56 67 78 85 15 26 37 48", "wedge": "12 23 31 45 56 64 14 25 36",
           "pyramid": "12 23 34 41 15 25 35 45"}
 NASTRAN = {"tetra": "12 23 31 14 24 34", "hexahedron": "12 23 34 41 15 26 37 48 56 67 78 85", "wedge": "12 23 31 14 25 36 45 56 64",
@@ -20,7 +20,7 @@ OF_CUBE = {  # cells of a cube by its corners in the order of a hexahedron; 8 is
     "hexahedron": [("hexahedron", "01234567")], "wedge": [("wedge", "012456"), ("wedge", "023467")],
     "pyramid": [("pyramid", each) for each in ("01238", "47658", "04518", "15628", "26738", "37408")],
     "tetra": [("tetra", each) for each in ("0126", "0236", "0376", "0746", "0456", "0516")],
-    # The pyramid over x = right as two tetrahedra.
+    # Divides the pyramid over x = right into two tetrahedra.
     "end": [("pyramid", each) for each in ("01238", "47658", "04518", "26738", "37408")] + [("tetra", "1528"), ("tetra", "5628")],
 }
 SIZE = (0.6, 0.2, 0.1)
@@ -28,10 +28,10 @@ VOLUME, SIDE = 0.6 * 0.2 * 0.1, 0.2 * 0.1
 
 
 class Box:
-    """points (p,3); cells: list of (shape, corners, {edge: middle node}) with numbers from 0."""
+    """`points` is (p,3); `cells` is a list of (shape, corners, {edge: middle node}) with numbers from 0."""
 
     def __init__(self, kinds=("hexahedron",) * 3, order=1, across=2):
-        """kinds: that of each slice along x; across: cubes along y and z."""
+        """`kinds` has the kind of each slice along x; `across` is the number of cubes along y and z."""
         x, y, z = (np.linspace(0, s, n + 1) for s, n in zip(SIZE, (len(kinds), across, across)))
         y = y + 0.13 * y * (SIZE[1] - y) / SIZE[1]
         self.points = [np.array([a, b, c]) for c in z for b in y for a in x]
@@ -45,9 +45,9 @@ class Box:
             self.shapes += [(shape, [cube[int(c)] for c in corners]) for shape, corners in cells]
 
     def add(self, corners):
-        """The node in the middle of nodes."""
+        """Returns the node in the middle of nodes."""
         key = frozenset(corners)
-        if len(key) == 1:  # a collapsed edge
+        if len(key) == 1:  # the edge is collapsed
             return corners[0]
         if key not in self.at:
             self.at[key] = len(self.points)
@@ -58,11 +58,11 @@ class Box:
         return [self.add([corners[int(k) - 1] for k in edge]) for edge in edges[shape].split()] if self.order == 2 else []
 
     def rows(self, edges):
-        """[(shape, nodes)] with the mid-side nodes in an order."""
+        """Returns [(shape, nodes)] with the mid-side nodes in an order."""
         return [(shape, corners + self.middles(shape, corners, edges)) for shape, corners in self.shapes]
 
     def left(self):
-        """Numbers of the nodes of the side x = 0."""
+        """Returns the numbers of the nodes of the side x = 0."""
         return [k for k, x in enumerate(self.points) if x[0] == 0]
 
     def nodes_of_abaqus(self):
@@ -80,7 +80,7 @@ class Box:
         return "*HEADING\n box\n" + self.nodes_of_abaqus() + text + extra
 
     def surface(self, name="PRESS"):
-        """*SURFACE of the faces of cells on the side x = 0."""
+        """Returns a *SURFACE of the faces of cells on the side x = 0."""
         left, lines = set(self.left()), []
         for number, (shape, corners) in enumerate(self.shapes, 1):
             lines += [f"{number}, S{k}" for k, side in enumerate(SIDES[shape].split(), 1) if {corners[int(c) - 1] for c in side} <= left]
@@ -95,7 +95,7 @@ class Box:
 
 
 def card(form, name, *fields):
-    """One card in small, large or free fields, with continuations."""
+    """Returns one card in small, large or free fields, with continuations."""
     words = [str(field) if form == "free" or "." in str(field) or field == "" or not isinstance(field, float) else f"{field:.1f}" for field in fields]
     count = 4 if form == "large" else 8
     lines = [words[k:k + count] for k in range(0, len(words), count)]

@@ -1,4 +1,4 @@
-"""Results files with `/drawing`, written by hand: nodes on known paths, and items of every shape."""
+"""Writes results files with `/drawing`, with nodes on known paths and items of every shape."""
 
 import json
 
@@ -7,7 +7,8 @@ import numpy as np
 
 
 def write_results(path, nodes, items, times=None, gravity=(0, 0, -9.81), name="drawn", meshes=None, complete=1, extra=None):
-    """nodes: {name: (positions (nt,3), quaternions (nt,4))}; meshes: {name: (points, triangles)}; extra(file): adds more."""
+    """Writes a file. `nodes` is {name: (positions (nt,3), quaternions (nt,4))}, `meshes` is {name: (points,
+    triangles)}, and `extra(file)` adds more."""
     rows = len(next(iter(nodes.values()))[0]) if nodes else 0
     times = np.arange(rows) * 0.01 if times is None else times
     with h5py.File(path, "w") as file:
@@ -33,18 +34,19 @@ def write_results(path, nodes, items, times=None, gravity=(0, 0, -9.81), name="d
 
 
 def turning(rows, axis, rate=0.1):
-    """(rows,4) quaternions of a rotation about an axis that grows by `rate` per row [rad]."""
+    """Returns quaternions (rows,4) of a rotation about an axis that increases by `rate` per row [rad]."""
     half = 0.5 * rate * np.arange(rows)
     return np.column_stack([np.cos(half), np.sin(half)[:, None] * np.asarray(axis, float)])
 
 
 def resting(rows, position=(0, 0, 0)):
-    """A node at rest."""
+    """Returns a node at rest."""
     return np.tile(np.asarray(position, float), (rows, 1)), np.tile([1.0, 0, 0, 0], (rows, 1))
 
 
 def write_check(path, failure="", redundant=(), apart=0.0):
-    """A model that was only checked: a bar on two hinges whose second has frames that are `apart` along y [m]."""
+    """Writes the file of a model that was only checked: a bar on two hinges. The frames of the second one have the
+    distance `apart` along y [m]."""
     items = [{"entry": f"joints/{name}", "type": "hinge", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 0]}, {"node": "n", "position": [x, y, 0]}]}
              for name, x, y in (("first", 0, 0), ("second", 1, apart))]
     items.append({"entry": "elements/bar", "type": "rigid_body", "shape": "box", "node": "n", "position": [0.5, 0, 0], "size": [1, 0.1, 0.1]})
@@ -57,8 +59,8 @@ def write_check(path, failure="", redundant=(), apart=0.0):
 
 
 def stressed_beam(name="beam", turn=None):
-    """An item and a function that adds its records: a beam along x of 2 elements in 3 rows, whose sections have two points. Its largest stresses
-    [Pa] are STRESSES."""
+    """Returns an item and a function that adds its records: a beam along x of 2 elements in 3 rows, whose sections have
+    two points. Its largest stresses [Pa] are STRESSES."""
     item = {"entry": f"elements/{name}", "type": "beam", "shape": "beam", "element": f"elements/{name}", **({"turn": turn} if turn else {}),
             "sections": [{"at": 0, "outer": [[0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]]}]}
 
@@ -79,7 +81,7 @@ JOINTS = ("hinge", "spherical", "prismatic", "cylindrical", "universal", "consta
 
 
 def every_shape(rows=31):
-    """Nodes and items in which each shape occurs: (nodes, items, meshes)."""
+    """Returns (nodes, items, meshes) with every shape."""
     nodes = {"wheel": (resting(rows, (0, 0, 0))[0], turning(rows, (0, 0, 1))),
              "crank": (resting(rows, (1, 0, 0))[0], turning(rows, (0, 1, 0), 0.05)),
              "end": (np.column_stack([1.6 + 0.2 * np.sin(0.2 * np.arange(rows)), np.zeros(rows), 0.6 * np.ones(rows)]), resting(rows)[1])}

@@ -1,5 +1,5 @@
-"""One body in all forms that decks have, as Nastran and as Abaqus: a mixture of all cells of order 2, two materials, cylindrical
-coordinates in a turned system, included files, skins, and continuation lines of every form."""
+"""One body in all forms of decks, of Nastran and of Abaqus: a mixture of all cells of order 2, two materials,
+cylindrical coordinates in a rotated system, included files, skins, and continuation lines of every form."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ ORIGIN, AXES = np.array([-0.5, 0.25, 0.125]), np.array([[0., 1, 0], [0, 0, 1], [
 
 
 class Everything:
-    """write(folder) makes deck.bdf and deck.inp with their included files."""
+    """write(folder) writes deck.bdf and deck.inp with their included files."""
 
     def __init__(self):
         self.box = Box(KINDS, order=2)
@@ -21,7 +21,7 @@ class Everything:
         self.skin = self._skin()
 
     def _skin(self):
-        """(corners and middles) of the faces at x = 0, which are quadrilaterals of wedges."""
+        """Returns corners and middles of the faces at x = 0, which are quadrilaterals of wedges."""
         faces = []
         for _, corners in self.box.shapes:
             left = [n for n in corners if self.x[n][0] == 0]
@@ -108,7 +108,7 @@ class Everything:
 
     @staticmethod
     def row(number, nodes):
-        """One element over lines of 3 to 16 words."""
+        """Returns one element in lines of 3 to 16 words."""
         words, width = [str(number)] + [str(n + 1) for n in nodes], (3, 7, 16)[number % 3]
         return ",\n ".join(", ".join(words[k:k + width]) for k in range(0, len(words), width)) + "\n"
 

@@ -1,7 +1,7 @@
-"""Free linear bodies for the formats of matrices: a cloud of point masses whose displacements are linear in the unknowns.
+"""Free linear bodies for the formats of matrices.
 
-Stiffness and mass are exact by construction: K u = 0 for rigid motions u, M is the sum over the points, and so are the
-components S_kl.
+A body is a cloud of point masses whose displacements are linear in the unknowns. Its stiffness and mass are exact by
+construction: K u = 0 for rigid motions u; M and the components S_kl are sums over the points.
 """
 
 import os
@@ -21,7 +21,7 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 
 
 def rigid_of(positions, components=6):
-    """(count * components, 6) motions of nodes in rigid motions about the origin, by cross products."""
+    """Returns the motions (count * components, 6) of nodes in rigid motions about the origin, by cross products."""
     rows = []
     for x in positions:
         for k in range(components):
@@ -30,13 +30,13 @@ def rigid_of(positions, components=6):
 
 
 def turn(a, b):
-    """A rotation matrix."""
+    """Returns a rotation matrix."""
     c, s, C, S = np.cos(a), np.sin(a), np.cos(b), np.sin(b)
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, C, -S], [0, S, C]])
 
 
 def cloud_body(nodes=2, scalars=3, points=12, components=6, seed=1, damping=True):
-    """A MatrixSet in body axes, with masses at its points and S_kl."""
+    """Returns a MatrixSet in body axes, with masses at its points and S_kl."""
     random = np.random.default_rng(seed)
     positions, places = random.normal(size=(nodes, 3)), random.normal(size=(points, 3)) + (0.3, 0.1, -0.2)
     masses, n = random.uniform(0.5, 2, points), components * nodes + scalars
@@ -49,7 +49,7 @@ def cloud_body(nodes=2, scalars=3, points=12, components=6, seed=1, damping=True
     M = components_of[:3].sum(axis=0)
     A = random.normal(size=(n, n))
     K = 1e4 * elastic.T @ (A @ A.T + np.diag(np.arange(n) + 1.0)) @ elastic
-    # Amplitudes do not couple with the nodes, as those of fixed-interface modes.
+    # Amplitudes do not couple with the nodes, like those of fixed-interface modes.
     K = sparse(np.block([[K[:n - scalars, :n - scalars], np.zeros((n - scalars, scalars))],
                          [np.zeros((scalars, n - scalars)), K[n - scalars:, n - scalars:]]])) if scalars else sparse(K)
     centre = masses @ places / masses.sum()
@@ -65,7 +65,7 @@ def cloud_body(nodes=2, scalars=3, points=12, components=6, seed=1, damping=True
 
 
 def turned(body, seed=2):
-    """The same body with axes of its own at each node."""
+    """Returns the same body with its own axes at each node."""
     random = np.random.default_rng(seed)
     axes = np.array([turn(*random.uniform(0, 6, 2)) for _ in body.numbers])
     T = np.eye(body.size)
@@ -81,13 +81,13 @@ def turned(body, seed=2):
 
 
 class Exchange(InFolder):
-    """Round trips of a format."""
+    """Tests of the round trips of a format."""
 
     def options(self, **given):
         return formats.Options(**given)
 
     def read_back(self, name, body, path, **given):
-        """The body out of the first file that the format writes."""
+        """Returns the body from the first file that the format writes."""
         paths = formats.module_of(name).write(body, path, self.options())
         self.assertTrue(all(os.path.exists(each) for each in paths))
         return self.read(name, paths[0], **given)
@@ -104,7 +104,7 @@ class Exchange(InFolder):
         self.assertNotIn("\n", str(caught.exception))
 
     def same(self, found, body, within=1e-12, damping=True):
-        """Positions, order and matrices are equal, relative to the largest number."""
+        """Asserts that positions, order and matrices are equal, relative to the largest number."""
         np.testing.assert_array_equal(found.numbers, body.numbers)
         np.testing.assert_allclose(found.positions, body.positions, rtol=0, atol=within * np.abs(body.positions).max())
         place = [self.row_of(body, found, row) for row in range(found.size)]
@@ -114,7 +114,7 @@ class Exchange(InFolder):
 
     @staticmethod
     def row_of(body, found, row):
-        """The unknown of the body that a row of the found set is."""
+        """Returns the unknown of the body for a row of the set that was read."""
         node, component = found.unknown_nodes[row], found.unknown_components[row]
         match = (body.unknown_nodes == node) & (body.unknown_components == component)
         return int(np.flatnonzero(match)[0])

@@ -1,4 +1,4 @@
-"""Bodies in the form of a MatrixSet for tests of the formats of matrices, and their comparison."""
+"""MatrixSets of bodies for tests of the formats of matrices, and their comparison."""
 
 import dataclasses
 
@@ -13,9 +13,9 @@ MATRICES = ("stiffness", "mass", "damping", "geometric_stiffness")
 
 
 def beam(young, density, length, width, turn=None):
-    """A straight beam along x with a square section, two nodes: stiffness of Euler's beam, consistent mass, damping of a
-    thousandth of the stiffness, geometric stiffness of a tension that stretches it by 1e-4. (Przemieniecki, Theory of Matrix
-    Structural Analysis, sections 5.6, 11.7 and 15.3.) @param turn: (3,3) axes of the second node"""
+    """Returns a straight beam along x with a square section and two nodes: stiffness of Euler's beam, consistent mass,
+    damping of a thousandth of the stiffness, geometric stiffness of a tension that stretches it by 1e-4 (Przemieniecki,
+    Theory of Matrix Structural Analysis, sections 5.6, 11.7 and 15.3). @param turn:  (3,3) axes of the second node"""
     area, inertia = width**2, width**4 / 12
     torsion = 2 * inertia
     line, bend, twist = young * area / length, young * inertia / length**3, young / 2.6 * torsion / length
@@ -45,13 +45,14 @@ def beam(young, density, length, width, turn=None):
 
 
 def turned(seed=3):
-    """Axes of a node: a rotation that moves each of the three axes."""
+    """Returns axes of a node, a rotation that changes each of the three axes."""
     axes, _ = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))
     return axes * np.sign(np.linalg.det(axes))
 
 
 def with_modes(body, count=3, seed=5, shapes=True):
-    """A body with scalar coordinates besides its nodes, whose mass is coupled with theirs, and with shapes at three points."""
+    """Returns a body with scalar coordinates in addition to nodes, whose masses are coupled, and with shapes at three
+    points."""
     random = np.random.default_rng(seed)
     n = body.size
     stiffness = scipy.linalg.block_diag(body.stiffness.toarray(), np.diag(10.0 ** np.arange(5, 5 + count)))
@@ -69,7 +70,7 @@ def with_modes(body, count=3, seed=5, shapes=True):
 
 
 def shuffled(body, seed=11):
-    """The same body with its unknowns in another order."""
+    """Returns the same body with its unknowns in another order."""
     order = np.random.default_rng(seed).permutation(body.size)
     members = {name: getattr(body, name)[order][:, order] for name in MATRICES if getattr(body, name) is not None}
     shapes = body.shapes and dataclasses.replace(body.shapes, displacement=body.shapes.displacement[:, order],
@@ -79,12 +80,12 @@ def shuffled(body, seed=11):
 
 
 def order_of(body):
-    """Places of the unknowns, sorted by the numbers of their nodes and their components, scalars last."""
+    """Returns the indices of the unknowns, sorted by node numbers and components, with scalars last."""
     return np.lexsort((body.unknown_components, [body.numbers[node] if node >= 0 else 2**40 for node in body.unknown_nodes]))
 
 
 def assert_same(test, found, expected, relative):
-    """Checks positions, axes, matrices and shapes of two bodies, whose unknowns may stand in different orders.
+    """Compares positions, axes, matrices and shapes of two bodies, whose unknowns may have different orders.
     @param relative: to the largest entry of each matrix"""
     def close(one, other, told):
         one, other = np.asarray(one), np.asarray(other)

@@ -1,4 +1,5 @@
-"""Reads a mesh file with gmsh's own library, as bielle-reduce does, through its C interface (Debian has no module)."""
+"""Reads a mesh file with gmsh's library through its C interface, as bielle-reduce does (Debian has no Python
+module)."""
 
 import ctypes
 import ctypes.util
@@ -13,7 +14,7 @@ _NAMES = {2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron", 6: "wedge", 7: 
 
 @functools.cache
 def _library():
-    """Searches for the library, by a process of ldconfig, once."""
+    """Finds the library by ldconfig, once."""
     return ctypes.CDLL(ctypes.util.find_library("gmsh"))
 
 

@@ -1,4 +1,4 @@
-"""OUTPUT4 files in every layout that Nastran writes, for tests of readers; nothing here is shared with the product's writer."""
+"""Writes OUTPUT4 files in every layout of Nastran for tests of readers, without code of the product's writer."""
 
 import struct
 
@@ -8,7 +8,7 @@ LAYOUTS = ("dense", "big", "short")  # BIGMAT strings, strings with a header of 
 
 
 def strings(column):
-    """Neighbouring values that are not zero. @returns list of (row from 1, values)"""
+    """Finds runs of values that are not zero. @returns list of (row from 1, values)"""
     found = []
     for row, value in enumerate(column, 1):
         if value == 0:
@@ -21,7 +21,7 @@ def strings(column):
 
 
 def columns(matrix, layout):
-    """For each column that is not zero its number and its strings; a dense one has one string."""
+    """Yields the number and the strings of each column that is not zero; a dense column has one string."""
     for number, column in enumerate(np.asarray(matrix).T, 1):
         if not column.any():
             continue
@@ -30,12 +30,13 @@ def columns(matrix, layout):
 
 
 def reals(values, kind):
-    """Real numbers of values, real and imaginary parts in turn if the type is complex."""
+    """Returns values as real numbers, with alternating real and imaginary parts if the type is complex."""
     return [part for value in values for part in ((value.real, value.imag) if kind > 2 else (value,))]
 
 
 def binary(matrices, layout="dense", order="<", word=4, kind=2, form=6):
-    """Bytes of a file. @param matrices: by name @param word: bytes of an integer @param kind: type, 1 to 4"""
+    """Returns the bytes of a file. @param matrices:  by name @param word:  bytes of an integer @param kind:  type, 1 to
+    4"""
     integer = {4: "i", 8: "q"}[word]
     real = "f" if kind in (1, 3) and word == 4 else "d"
     words = struct.calcsize(real) // word
@@ -65,7 +66,8 @@ def binary(matrices, layout="dense", order="<", word=4, kind=2, form=6):
 
 
 def text(matrices, layout="dense", kind=2, form=6, numbers="1P,3E23.16", wide_header=False):
-    """Text of a file. @param numbers: format of the numbers @param wide_header: header with integers of 16 characters"""
+    """Returns the text of a file. @param numbers:  format of the numbers @param wide_header:  header with integers of
+    16 characters"""
     style = numbers.rpartition(",")[2]
     letter = "E" if "E" in style else "D"
     per_line, width, decimals = int(style.split(letter)[0]), int(style.split(letter)[1].split(".")[0]), int(style.split(".")[1])

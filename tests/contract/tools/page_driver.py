@@ -1,4 +1,4 @@
-"""A headless browser that shows pages of bielle-view: Debian's chromium, driven by selenium."""
+"""A headless browser that shows pages of bielle-view: Debian's chromium, controlled by selenium."""
 
 import importlib.util
 import io
@@ -17,7 +17,7 @@ WHY_NOT = next((reason for missing, reason in (
 
 
 class Pages(unittest.TestCase):
-    """One browser for the tests of a class; every page must end without an error on its console."""
+    """Base class with one browser for all tests; no page may write an error to the console."""
 
     @classmethod
     def setUpClass(cls):
@@ -56,13 +56,13 @@ class Pages(unittest.TestCase):
         self.browser.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)));")
 
     def picture(self):
-        """The page as an array (h,w,3)."""
+        """Returns the page as an array (h,w,3)."""
         from PIL import Image
         self.settled()
         return np.asarray(Image.open(io.BytesIO(self.browser.get_screenshot_as_png())).convert("RGB")).astype(int)
 
     def drawn(self):
-        """The number of pixels of the scene's own canvas that are drawn, without the grid."""
+        """Returns the number of drawn pixels in the canvas of the scene, without the grid."""
         self.run_script("bielle.settings.grid = false; bielle.changed()")
         self.settled()
         return self.run_script("""bielle.render(); const c = document.getElementById("scene"), o = document.createElement("canvas"); o.width = c.width; o.height = c.height;

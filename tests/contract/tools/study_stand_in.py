@@ -1,7 +1,7 @@
 """A stand-in for bielle-mechanism in tests of tools/bielle-study, whose results are known in closed form.
 
-It starts without h5py, which would take nine tenths of its time: it copies results that are written once, and replaces the
-numbers and the name of the program in them.
+It does not import h5py, which would take nine tenths of its time. It copies results that are written once, and replaces
+numbers and the name of the program.
 """
 
 import io
@@ -13,7 +13,7 @@ import h5py
 from box_mesh import REPOSITORY, InFolder
 from python_tool import prepare_figures, run_python_tool
 
-# The modules of bielle-study are imported here, so that each of its calls has them.
+# The modules of bielle-study are imported once for all of its calls.
 import bielle_tools.figures.plot_style  # noqa: F401
 import bielle_tools.study.figures  # noqa: F401
 import bielle_tools.study.jobs  # noqa: F401
@@ -22,7 +22,8 @@ import bielle_tools.study.study  # noqa: F401
 STUDY = os.path.join(REPOSITORY, "tools", "bielle-study")
 SPEED, MASS = 1.0123456789, 2.3456789012  # numbers of the results that are copied
 PROGRAM = "bielle-mechanism 0.0 (commit stand-in)"
-# Takes the arguments of bielle-mechanism; doubles the parameter `speed`, fails when `mass` is negative; keeps a log of its runs.
+# The script has the arguments of bielle-mechanism. It doubles the parameter `speed`, fails if `mass` is negative, and
+# writes a log of its runs.
 STAND_IN = f"""#!/usr/bin/python3 -SE
 import os, struct, sys
 PROGRAM = "{PROGRAM}"
@@ -60,7 +61,7 @@ with open(arguments[arguments.index("-o") + 1], "wb") as file:
 
 
 def stand_in_results():
-    """The file that the stand-in copies, with its numbers for SPEED and MASS."""
+    """Writes the file that the stand-in copies, with the numbers for SPEED and MASS."""
     memory = io.BytesIO()
     with h5py.File(memory, "w") as file:
         file.attrs.update({"format": "bielle results", "created_by": PROGRAM})
@@ -101,7 +102,7 @@ class WithStandIn(InFolder):
         return self.call(self.path("model.yaml"), self.path("table.csv"), "-o", self.path("study.h5"), *options)
 
     def runs(self):
-        """Calls of the stand-in since the last time."""
+        """Returns the calls of the stand-in since the previous query."""
         if not os.path.exists(self.path("log")):
             return []
         with open(self.path("log"), encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""Results of an analysis `eigen` with shapes in closed form."""
+"""Writes results of an analysis `eigen` with shapes in closed form."""
 
 import h5py
 import numpy as np
@@ -7,7 +7,8 @@ OMEGA, SIGMA = 30.0, -3.0
 
 
 def write_whirl(path):
-    """A node that goes round the x axis, and turns about it back and forth, with the decay SIGMA; a rigid mode along z."""
+    """Writes two modes: a node that moves around the x axis and oscillates about it, with the decay SIGMA, and a rigid
+    mode along z."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": "bielle results", "version": 1, "complete": True, "name": "whirl"})
         file["input"] = "mechanism: whirl\n"

@@ -1,8 +1,9 @@
-"""A superelement and a results file with a motion known in closed form, written as the two programs write them.
+"""A superelement and a results file with a motion known in closed form, in the layout of the two programs.
 
-A box turns about z with OMEGA, its frame's origin moves along x with SPEED, and it is stretched along its own x axis by
-the strain STRAIN sin(2 pi t / DURATION); the von Mises stress of that is YOUNG |strain|. A beam stands still, a hinge
-turns. A solid ellipsoid of uniform density with the semi-axes SEMI_AXES is fixed to the node of the box, at CENTRE.
+A box rotates about z with OMEGA, the origin of its frame moves along x with SPEED, and it is stretched along its own x
+axis by the strain STRAIN sin(2 pi t / DURATION), with the von Mises stress YOUNG |strain|. A beam is at rest, and a
+hinge rotates. A solid ellipsoid of uniform density with the semi-axes SEMI_AXES is fixed to the node of the box, at
+CENTRE.
 """
 
 import h5py
@@ -21,7 +22,7 @@ def strain(time):
 
 
 def positions(points, time, scale=1.0):
-    """Positions of the points (p,3) of the box at a time."""
+    """Returns the positions of the points (p,3) of the box at a time."""
     c, s = np.cos(OMEGA * time), np.sin(OMEGA * time)
     stretched = points * [1 + scale * strain(time), 1, 1]
     return stretched @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [SPEED * time, 0, 0]
@@ -46,7 +47,8 @@ def write_superelement(path, divisions=(4, 2, 2)):
 
 
 def write_results(path, superelement, rows=41, complete=True, extra_rows=0, analysis=""):
-    """analysis: its type; the results are then in a group of it, with links at the root, as the program writes them."""
+    """Writes the results file. If `analysis` is a type, the results are in a group with links at the root, as the
+    program writes them."""
     time = np.linspace(0, DURATION, rows)
     more = np.concatenate([time, np.zeros(extra_rows)])
     half = 0.5 * OMEGA * more

@@ -1,4 +1,5 @@
-"""Magnified deformation of beams: helices with random strains, rigid motions, an arc, a cantilever of the program, the page."""
+"""Tests of the magnified deformation of beams: helices with random strains, rigid motions, an arc, a cantilever, the
+page."""
 
 import os
 import subprocess
@@ -9,7 +10,7 @@ import numpy as np
 import page_driver
 from box_mesh import InFolder
 
-from bielle_tools.results import Results  # box_mesh knows where
+from bielle_tools.results import Results  # box_mesh sets the path
 from bielle_tools.results.quaternions import product, rotated
 from bielle_tools.scene import make_scene
 from bielle_tools.scene.beam_deformation import exponential, logarithm, magnified, undeformed_motion
@@ -28,8 +29,8 @@ analysis: [{{type: static, steps: 2}}]
 
 
 def screw(v, d, doublings=12):
-    """Place and rotation after a motion with the constant velocities d, v in its own axes: 4096 equal small steps (midpoint), of which
-    two, four, eight .. are composed."""
+    """Returns position and rotation after a motion with the constant velocities d, v in its own axes, as a composition
+    of 4096 equal small steps (midpoint rule)."""
     parts = 2**doublings
     x, q = rotated(exponential(v / parts / 2), d / parts), exponential(v / parts)
     for _ in range(doublings):
@@ -38,7 +39,8 @@ def screw(v, d, doublings=12):
 
 
 def chain(strains, initial, h):
-    """Stations of a beam with the constant strains (n,6) of its elements, and with (1, 0, 0, initial curvature) without strain."""
+    """Returns the stations of a beam with constant strains (n,6) of its elements, and with (1, 0, 0, initial curvature)
+    without strain."""
     x, q = [np.zeros(3)], [np.array([1.0, 0, 0, 0])]
     for strain in strains:
         d, turn = screw(h * (initial + strain[3:]), h * (np.array([1.0, 0, 0]) + strain[:3]))
@@ -72,25 +74,28 @@ class Deformations(unittest.TestCase):
         rest = undeformed_motion(x, q, np.zeros((3, 5, 6)))(np.arange(3))
         poses = np.concatenate([x, q, np.ones((3, 6, 1))], axis=2)
         found = magnified(poses, rest, 100.0)
-        np.testing.assert_allclose(found[..., :3], x, atol=1e-9)  # the rounding of the small steps, a hundred times
+        np.testing.assert_allclose(found[..., :3], x, atol=1e-9)  # a hundred times the rounding of the small steps
         np.testing.assert_allclose(np.abs((found[..., 3:7] * q).sum(axis=-1)), 1, atol=1e-12)
 
     def test_recorded_strain_gives_the_undeformed_beam(self):
-        """The run begins strained: the beam without strain is not in it. Three elements of a helix with random strains."""
+        """Three elements of a helix have random strains from the first row, so that the results do not contain the beam
+        without strain."""
         initial, h = np.array([0.5, -1.0, 2.0]), 0.3
         strain = 0.2 * self.random.normal(size=(3, 6))
         x, q = moved(*chain(strain, initial, h), self.turn, self.shift)
         rest = undeformed_motion(x[None], q[None], strain[None])([0])[0]
         U, Q = chain(np.zeros((3, 6)), initial, h)
         turn = product(rest[0, 3:7], Q[0] * [1, -1, -1, -1])
-        np.testing.assert_allclose(rest[:, :3] - rest[0, :3], rotated(turn, U - U[0]), atol=1e-7)  # the small steps of the test
+        # The tolerance is the error of the small steps of the test.
+        np.testing.assert_allclose(rest[:, :3] - rest[0, :3], rotated(turn, U - U[0]), atol=1e-7)
         np.testing.assert_allclose(np.abs((product(turn, Q) * rest[:, 3:7]).sum(axis=1)), 1, atol=1e-12)
         poses = np.concatenate([x, q, np.ones((4, 1))], axis=1)
         np.testing.assert_allclose(magnified(poses, rest, 1.0)[:, :3], x, atol=1e-14)
         np.testing.assert_allclose(magnified(poses, rest, 0.0)[:, :7], rest[:, :7], atol=1e-14)
 
     def test_the_fit_is_the_nearest_rigid_motion(self):
-        """No small motion of the undeformed beam lessens the sum of squares; and the whole picture turns with the mechanism."""
+        """No small motion of the undeformed beam reduces the sum of squares, and the picture rotates with the
+        mechanism."""
         strain = np.tile([0.0, 0, 0, 0.3, 0.5, -0.4], (4, 1))
         x, q = chain(strain, np.zeros(3), 0.25)
         rest = undeformed_motion(x[None], q[None], strain[None])([0])[0]
@@ -137,7 +142,8 @@ class OfAModel(InFolder):
         return scene, part
 
     def test_a_cantilever(self):
-        """Second differences of F x^2 (3 L - x)/(6 E I) along the normal of the beam at rest: rigid motions have none."""
+        """Second differences are those of F x^2 (3 L - x)/(6 E I) along the normal of the beam at rest; rigid motions
+        have none."""
         scene, part = self.scene()
         rest, poses = part.rest([1])[0], scene.poses(part, [1])[0]
         x = np.linspace(0, LENGTH, 9)

@@ -1,5 +1,5 @@
-"""Tools on meshes of all types of cells: shape functions and integrals, ParaView and pictures, cases for CalculiX, formats of
-meshio."""
+"""Tests of tools on meshes of all types of cells: shape functions and integrals, ParaView and pictures, decks for
+CalculiX, formats of meshio."""
 
 import os
 import types
@@ -14,7 +14,7 @@ import synthetic_results as synthetic
 from box_mesh import REPOSITORY
 from cell_decks import SIDE, VOLUME, Box
 from gmsh_library import GmshFile
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
 from test_convert_cells import MIXTURE, SHAPES, CellConverter, area, cell_set
 
 from bielle_tools.bodies import calculix_file
@@ -31,14 +31,14 @@ VTK = {"tetra10": "01 12 20 03 13 23", "hexahedron20": "01 12 23 30 45 56 67 74 
 
 
 def converted(case, kinds, order):
-    """The box as convert_mesh.py and gmsh have it."""
+    """Returns the box as convert_mesh.py and gmsh read it."""
     return case.convert("box.inp", Box(kinds, order).abaqus())
 
 
 class ShapeFunctions(unittest.TestCase):
     def test_functions_are_one_at_their_nodes_and_add_up_to_one(self):
         for kind, cell in CELLS.items():
-            places = cell.reference * (1 - 1e-12)  # functions of a pyramid are not defined at its apex
+            places = cell.reference * (1 - 1e-12)  # the functions of a pyramid are not defined at its apex
             N = np.array([cell_integrals.shape_functions(kind, x) for x in places])
             np.testing.assert_allclose(N, np.eye(cell.nodes), atol=1e-9, err_msg=kind)
             x = cell.reference.mean(axis=0) + 0.05
@@ -76,7 +76,8 @@ class ShapeFunctions(unittest.TestCase):
             faces = boundary_faces(solid_faces(cells))
             ones = cell_integrals.surface_integrals(points, faces, lambda x: np.ones(len(x)))
             self.assertAlmostEqual(ones.sum(), area(points, faces), places=11)
-        # The mass matrix of a cube of 8 nodes: rho V/216 (8, 4, 2 or 1 times), by the number of different coordinates.
+        # The mass matrix of a cube of 8 nodes is rho V/216 times 8, 4, 2 or 1, depending on the number of different
+        # coordinates.
         reference = CELLS["hexahedron"].reference
         apart = (reference[:, None] != reference[None]).sum(axis=2)
         M = cell_integrals.scalar_mass(reference, {"hexahedron": np.arange(8)[None]}, {"hexahedron": np.array([1.0])}).toarray()
@@ -85,7 +86,7 @@ class ShapeFunctions(unittest.TestCase):
 
 class InPictures(CellConverter):
     def write_body(self, mesh):
-        """A superelement of the mesh that is stretched along x, as synthetic_results has it."""
+        """Writes a superelement of the mesh that is stretched along x, as in synthetic_results."""
         numbers = {cell.name: str(number) for number, cell in BY_GMSH.items()}
         with h5py.File(self.path("box.h5"), "w") as file:
             file.attrs.update({"format": "bielle superelement", "version": 1, "name": "box", "complete": True})
@@ -141,7 +142,7 @@ class InPictures(CellConverter):
 
 class OtherFormats(CellConverter):
     def test_meshes_of_meshio(self):
-        """VTK files of each type and MED, which has orders of its own."""
+        """Tests VTK files of each type, and MED, which has other node orders."""
         for shape in SHAPES:
             for order in (1, 2):
                 expected = converted(self, (shape,) * 3, order)
@@ -189,7 +190,7 @@ class Table(unittest.TestCase):
                 self.assertIn(flat, FLATS)
                 normal = np.cross(x[1] - x[0], x[2] - x[0])
                 self.assertGreater(normal @ (x[0] - cell.reference.mean(axis=0)), 0)
-                if len(nodes) > CELLS[flat].corners:  # they lie as the face's own reference cell has them
+                if len(nodes) > CELLS[flat].corners:  # places of the face's own reference cell
                     weights = CELLS[flat].reference
                     N = np.array([cell_integrals.shape_functions(CELLS[flat].shape, place) for place in weights])
                     np.testing.assert_allclose(N @ x[:CELLS[flat].corners], x, atol=1e-15)

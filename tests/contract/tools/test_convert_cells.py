@@ -1,5 +1,5 @@
-"""convert_mesh.py: all solid cells of Nastran's and Abaqus' decks. gmsh itself reads the results: its reference cells give the
-order of the nodes, and its integrals the volumes."""
+"""Tests convert_mesh.py with all solid cells of Nastran's and Abaqus' decks. gmsh reads the results: its reference
+cells give the order of the nodes, and its integrals the volumes."""
 
 import itertools
 import os
@@ -34,13 +34,13 @@ def area(points, faces):
 
 
 def of_pyramids(mesh, kind):
-    """Volumes of pyramids with plane faces: gmsh's rule of integration gives 4/3 of them."""
+    """Returns the volumes of pyramids with plane faces, since gmsh's rule of integration gives 4/3 of them."""
     a, b, c, d, top = (mesh.points[mesh.cells[kind][:, k]] for k in range(5))
     return np.einsum("ij,ij->i", np.cross(c - a, d - b), top - a) / 6
 
 
 def cell_set(mesh):
-    """The cells as places, independent of numbers and of the first corner."""
+    """Returns the cells as places, independently of numbers and of the first corner."""
     return sorted((kind, tuple(sorted(map(tuple, mesh.points[row].round(5).tolist())))) for kind, cells in mesh.cells.items() for row in cells)
 
 
@@ -58,7 +58,7 @@ class CellConverter(InFolder):
         return mesh
 
     def check(self, mesh, tolerance, volume):
-        """The volume, and for each node after the corners that it is the middle of the corners that gmsh says."""
+        """Asserts the volume, and that each node after the corners is the middle of the corners that gmsh defines."""
         volumes = {**mesh.volumes, **{kind: of_pyramids(mesh, kind) for kind in mesh.volumes if kind.startswith("pyramid")}}
         self.assertAlmostEqual(sum(v.sum() for v in volumes.values()) / volume, 1, delta=1e-5 if tolerance > 1e-8 else 1e-9)
         self.assertGreater(mesh.least_determinant, 0)
@@ -121,7 +121,7 @@ class EachType(CellConverter):
                 self.assertTrue((np.cross(b - a, c - a)[:, 0] < 0).all(), shape)
 
     def test_every_side_of_abaqus(self):
-        """Each side of all cells by its number has the place that the manual says."""
+        """Each side of all cells has the place that the manual defines for its number."""
         from cell_decks import SIDES as sides
         for shape in SHAPES:
             box = Box((shape,) * 3)
@@ -165,7 +165,8 @@ class EachType(CellConverter):
         self.refuse("box.inp", box.abaqus(types={"hexahedron": "COH3D8"}), "12 COH3D8 (the first at ", "box.inp:40)")
 
     def test_types_that_are_not_read_are_counted(self):
-        """With the place of the first: those of several blocks together, in included elements and in lines that go on."""
+        """The message tells the place of the first one: for several blocks, in included elements and in continued
+        lines."""
         box = Box(order=1)
         strange = "*ELEMENT, TYPE=U12\n201, 1, 2,\n3, 4\n202, 1, 2,\n3, 5\n*ELEMENT, TYPE=COH3D8\n301, 1, 2, 3, 4, 5, 6, 7, 8\n*ELEMENT, TYPE=u12\n203, 1,\n2, 3, 4\n"
         text = box.abaqus(strange)
@@ -199,15 +200,16 @@ class EachType(CellConverter):
         self.refuse("box.inp", box.abaqus(), "holds 3 hexahedra of no volume (the first: element 1, near ")
 
     def test_thin_cells_are_measured_by_themselves(self):
-        # The first two cells of this wire of 100 m are 0.1 mm long: 2.5e-17 of the cube over its length, and far from flat.
+        # The first two cells of this wire of 100 m are 0.1 mm long. Their volume is 2.5e-17 of the cube of the length,
+        # but they are far from flat.
         box, thick = Box(across=1), 5e-4
         ends = [0, 1e-4, 2e-4, 100]
         box.points = [np.array([ends[round(3 * x / SIZE[0])], thick * y / SIZE[1], thick * z / SIZE[2]]) for x, y, z in box.points]
         self.convert("box.inp", box.abaqus(), volume=100 * thick**2)
 
     def test_arcs_that_bulge_beyond_the_wall_keep_their_nodes(self):
-        """A ring of C3D20 whose wall is thinner than its arcs are high: the middle of an arc is nearer to the chord of the other
-        face than to its own."""
+        """The wall of this ring of C3D20 is thinner than the height of its arcs, so that the middle of an arc is closer
+        to the chord of the other face than to its own."""
         around, radius, wall, height = 24, 1.0, 0.01, 0.1
         numbers, points = {}, []
 
@@ -231,14 +233,14 @@ class EachType(CellConverter):
         done = self.run_tool("ring.inp")
         self.assertEqual(done.returncode, 0, done.stderr)
         mesh = GmshFile(self.path("out.msh"))
-        # Parabolas through three points of a circle bound its area within (pi/n)^4/20 or so.
+        # Parabolas through three points of a circle have an error of the area of about (pi/n)^4/20.
         exact = np.pi * ((radius + wall)**2 - radius**2) * height
         self.assertAlmostEqual(sum(v.sum() for v in mesh.volumes.values()) / exact, 1, delta=1e-4)
         self.assertEqual(sum(len(nodes) for nodes in mesh.cells.values()), around)
         self.assertIn("mid-side nodes of 24 hexahedra lie nearer to another edge than to their own", done.stderr)
 
     def test_cells_keep_their_numbers(self):
-        """bielle-reduce names cells by the numbers of the deck: gmsh's element numbers are theirs."""
+        """bielle-reduce names cells by the numbers of the deck, which are gmsh's element numbers."""
         for numbers in ([7, 3, 2**31 - 2], [11, 11 + 10**6, 12]):
             box = Box(across=1)
             rows = box.abaqus().split("ELSET=BODY\n")
@@ -295,7 +297,7 @@ class Mixtures(CellConverter):
 
 
 class Degenerate(CellConverter):
-    """Hexahedra with repeated corners as the manuals of the programs show them."""
+    """The hexahedra have repeated corners as in the manuals of the programs."""
 
     def collapsed(self, shape, order):
         as_hexahedron = {"wedge": [0, 1, 2, 2, 3, 4, 5, 5], "pyramid": [0, 1, 2, 3, 4, 4, 4, 4], "tetra": [0, 1, 2, 2, 3, 3, 3, 3]}[shape]
@@ -314,7 +316,7 @@ class Degenerate(CellConverter):
                 self.assertEqual(sum(len(cells) for cells in group.values()), len(whole))
 
     def test_other_collapsed_edges(self):
-        """All ways of shrinking a set of edges: the remaining cell has the volume of the original, or the cell is
+        """Every set of edges is collapsed: the remaining cell has the volume of the original, or the cell is
         refused."""
         edges = [[int(c) - 1 for c in edge] for edge in ABAQUS["hexahedron"].split()]
         seen = set()
@@ -399,7 +401,8 @@ class Shells(CellConverter):
 
 
 class MissingMiddleNodes(CellConverter):
-    """CHEXA without some mid-side nodes, of a bar of three in a row, and their places between the grid points."""
+    """Returns CHEXA cells without some mid-side nodes, for a bar of three in a row, and the places of these nodes
+    between the grid points."""
 
     def deck(self, leave_out, order=2):
         box = Box(across=1, order=order)

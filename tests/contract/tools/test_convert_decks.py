@@ -1,4 +1,5 @@
-"""convert_mesh.py: decks as preprocessors write them. The body is a bar of 1 x 0.2 x 0.2 m, whatever form its cards have."""
+"""Tests convert_mesh.py with decks as preprocessors write them. The body is a bar of 1 x 0.2 x 0.2 m, for every form of
+its cards."""
 
 import os
 import unittest
@@ -35,7 +36,7 @@ class Deck(test_convert_mesh.Converter):
         self.assertEqual(sum(len(mesh.cells.get(kind, ())) for kind in ("tetra", "tetra10")), len(self.cells))
 
     def refuse(self, name, *parts):
-        if os.path.exists(self.path("out.msh")):  # output of an earlier test
+        if os.path.exists(self.path("out.msh")):  # removes the output of an earlier test
             os.remove(self.path("out.msh"))
         super().refuse(name, *parts)
 
@@ -61,7 +62,7 @@ class Nastran(Deck):
         for cards, system in (("CORD2R         5       0     10.      0.      0.     10.      1.      0.\n             11.      0.      0.\n", "5"),
                               ("GRDSET                 5\nCORD2R,5,0,10.,0.,0.,10.,1.,0.,\n,11.,0.,0.\n", "")):
             mesh = self.convert(self.deck(cards, self.grids(system), self.tetrahedra()))
-            # z' along y, x' in the plane of x and z: y' = z' x x' = -z.
+            # z' is along y and x' in the plane of x and z, hence y' = z' x x' = -z.
             np.testing.assert_allclose(self.corners(mesh), [[10, 0, -0.2], [11, 0.2, 0]], atol=1e-5)
 
     def test_a_point_of_grdset_may_stand_in_the_basic_system(self):
@@ -80,7 +81,7 @@ class Nastran(Deck):
             np.testing.assert_allclose(self.corners(mesh), [[0, 0, 0], SIZE], atol=1e-7)
 
     def test_systems_of_grid_points_and_in_other_systems(self):
-        # CORD1R on three points; CORD2R in it, moved back along its axes to where the basic system is.
+        # CORD1R is defined by three points; CORD2R in it is moved back along its axes to the place of the basic system.
         extra = "GRID,901,,5.,0.,0.\nGRID,902,,5.,0.,1.\nGRID,903,,6.,0.,0.\nCORD1R,3,901,902,903\nCORD2R,4,3,-5.,0.,0.,-5.,0.,1.,\n,-4.,0.,0.\n"
         mesh = self.convert(self.deck(extra, self.grids("4"), self.tetrahedra()))
         np.testing.assert_allclose(self.corners(mesh), [[0, 0, 0], SIZE], atol=1e-5)
@@ -104,7 +105,8 @@ class Nastran(Deck):
         self.refuse(self.deck(self.grids(), "INCLUDE 'parts/some.inc'\n"), "some.inc': line 1", "no such file", "parts' or '")
 
     def marked(self, own):
-        """Cards in large fields, [card][line]; a line ends with a mark, with which the next one of its card begins. @param own: each card has marks of its own"""
+        """Returns cards in large fields, [card][line]. A line ends with a mark, with which the next line of its card
+        begins. @param own:  each card has its own marks"""
         cards = []
         for i, row in enumerate(self.cells):
             fields = [i + 1, 1, *(n + 1 for n in row)]
@@ -186,7 +188,7 @@ class NastranOfSecondOrder(Nastran):
     linear = False
 
     def test_large_fields_and_free_ones_tabs_and_lower_case(self):
-        """Continuations without marks, in small fields and free ones."""
+        """Tests continuations without marks, in small and in free fields."""
         self.convert(self.deck(self.grids(), self.tetrahedra()))
         free = "".join(f"CTETRA,{i + 1},1,{','.join(str(n + 1) for n in row[:6])}\n,{','.join(str(n + 1) for n in row[6:])}\n"
                        for i, row in enumerate(self.cells))
@@ -217,7 +219,7 @@ class Abaqus(Deck):
         self.refuse(self.deck("*NODE, INPUT=none.dat\n"), "bar.inp:1", "none.dat")
 
     def test_nodes_in_a_system(self):
-        # The first axis along y, the second along -x.
+        # The first axis is along y, the second one along -x.
         turned = "*SYSTEM\n10., 0., 0., 10., 1., 0.\n9., 0., 0.\n"
         mesh = self.convert(self.deck(f"{turned}*NODE\n{self.nodes()}*SYSTEM\n*ELEMENT, TYPE=C3D4, ELSET=E\n{self.rows()}"))
         np.testing.assert_allclose(self.corners(mesh), [[9.8, 0, 0], [10, 1, 0.2]], atol=1e-9)

@@ -1,5 +1,5 @@
-"""convert_mesh.py: files of other programs become MSH files that gmsh reads, with their groups, or give one clear
-sentence."""
+"""Tests that convert_mesh.py converts files of other programs to MSH files with groups that gmsh reads, or prints one
+clear sentence."""
 
 import os
 import subprocess
@@ -42,7 +42,8 @@ class Converter(InFolder):
         return mesh
 
     def check_tetrahedra(self, mesh):
-        """Volume of the body to rounding; mid-side nodes in the middle of the edges that gmsh's order names."""
+        """Asserts the volume of the body up to rounding, and mid-side nodes in the middle of the edges by gmsh's
+        order."""
         total = 0.0
         for kind in ("tetra", "tetra10"):
             if kind not in mesh.cells:
@@ -55,7 +56,7 @@ class Converter(InFolder):
             if kind == "tetra10":
                 middles = corners[:, GMSH_EDGES].mean(axis=2)
                 mids = mesh.points[mesh.cells[kind][:, 4:]]
-                np.testing.assert_allclose(mids, middles, atol=1e-6)  # .bdf has 8 characters per number
+                np.testing.assert_allclose(mids, middles, atol=1e-6)  # .bdf files have 8 characters per number
         self.assertAlmostEqual(total / VOLUME, 1, delta=1e-5)
 
     def refuse(self, name, *parts):
@@ -106,7 +107,8 @@ class Abaqus(Converter):
         self.assertEqual({name: len(g["tetra10"]) for (_, name), g in mesh.groups.items()}, {"A": 3, "B": 1, "C": 5})
 
     def test_surfaces_of_element_faces(self):
-        """All four faces of all cells are named in turn: together they have the area of every face twice or once."""
+        """Each of the four faces is named for all cells; together they contain inner faces twice and outer ones
+        once."""
         text = "*Elset, elset=all, generate\n1, %d\n" % len(self.cells)
         text += "".join(f"*Surface, type=element, name=side{k}\nall, S{k}\n" for k in (1, 2, 3, 4))
         self.write("box.inp", self.inp(text))
@@ -139,7 +141,7 @@ class Abaqus(Converter):
         self.assertTrue((np.cross(b - a, c - a)[:, 0] < 0).all())
 
     def test_files_that_gmsh_writes(self):
-        """gmsh writes surfaces as CPS6 and physical groups as ELSET; meshio ends the program on them."""
+        """gmsh writes surfaces as CPS6 and physical groups as ELSET, on which meshio ends the program."""
         triangles = [face for face in self.cells[:, [0, 2, 1, 6, 5, 4]].tolist() if set(face[:3]) <= set(self.left)]
         triangles += [face for face in self.cells[:, [0, 3, 2, 7, 9, 6]].tolist() if set(face[:3]) <= set(self.left)]
         first = len(self.cells) + 1
@@ -205,7 +207,7 @@ class Abaqus(Converter):
 
 class OtherFormats(Converter):
     def boundary(self):
-        """Triangles of the side x = 0, VTK order, for formats that have surfaces of their own."""
+        """Returns the triangles of the side x = 0 in VTK's order, for formats with surface cells."""
         sides = [[0, 2, 1, 6, 5, 4], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [0, 3, 2, 7, 9, 6]]
         return np.array([row[side] for row in self.cells for side in sides if set(row[side]) <= set(self.left)])
 
@@ -262,7 +264,7 @@ class OtherFormats(Converter):
         self.convert("box.nas")
 
     def nastran(self, extra):
-        """The box with more cards before its end."""
+        """Returns the box with more cards before its end."""
         self.mesh().write(self.path("plain.bdf"))
         with open(self.path("plain.bdf"), encoding="utf-8") as file:
             self.write("box.bdf", file.read().replace("ENDDATA", extra + "ENDDATA"))

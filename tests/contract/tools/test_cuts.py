@@ -1,4 +1,5 @@
-"""Solids with holes in pictures: closed surfaces of the volume that is left, wherever the solid stands."""
+"""Tests of solids with holes in pictures: the surfaces are closed and enclose the remaining volume, for any position of
+the solid."""
 
 import os
 import sys
@@ -20,7 +21,7 @@ from bielle_tools.scene.cuts import ROUND, solid_mesh  # noqa: E402
 from bielle_tools.scene.outlines import triangulated  # noqa: E402
 from drawn_results import resting, write_results  # noqa: E402
 
-CIRCLE = ROUND * np.sin(2 * np.pi / ROUND) / 2  # area of the polygon that a circle of radius 1 is drawn as
+CIRCLE = ROUND * np.sin(2 * np.pi / ROUND) / 2  # area of the polygon that represents a circle of radius 1
 HALF = 0.5 ** 0.5
 ABOUT_X, ABOUT_Y = (HALF, HALF, 0, 0), (HALF, 0, HALF, 0)  # a quarter of a turn
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # a unit quaternion
@@ -34,7 +35,7 @@ def volume(mesh):
 
 
 def is_closed(mesh):
-    """Every edge has as many triangles on one side as on the other."""
+    """Asserts that every edge has as many triangles on one side as on the other."""
     _, same = np.unique(np.round(mesh.points, 9) + 0.0, axis=0, return_inverse=True)
     triangles = same[mesh.triangles]
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
@@ -52,7 +53,7 @@ def window(size, position, rotation=(1, 0, 0, 0)):
 
 
 def put(item, position, rotation):
-    """The item on a solid that stands elsewhere."""
+    """Returns the item on a displaced solid."""
     own = rotated(rotation, np.asarray(item.get("position", (0, 0, 0)), float))
     return {**item, "entry": "elements/it", "position": list(own + position), "rotation": list(product(rotation, np.asarray(item.get("rotation", (1, 0, 0, 0)), float)))}
 
@@ -71,7 +72,7 @@ class Cuts(unittest.TestCase):
                 self.assertTrue((np.isclose(np.abs(np.delete(points[~rim], axis, axis=1)), np.delete(size / 2, axis)).all()))
 
     def check(self, solid, cuts, left):
-        """Also for a solid that stands elsewhere and is turned."""
+        """The same holds for a displaced and rotated solid."""
         for position, rotation in ((np.zeros(3), np.array([1.0, 0, 0, 0])), (np.array([3.0, -1, 2]), TURNED)):
             mesh, _ = solid_mesh(put(solid, position, rotation), [put(cut, position, rotation) for cut in cuts])
             self.assertAlmostEqual(volume(mesh), left, delta=1e-12)
@@ -101,7 +102,8 @@ class Cuts(unittest.TestCase):
                 self.assertAlmostEqual(volume(mesh), 0.8, delta=1e-12)
                 self.assertEqual(left_out, 1)
         self.check(DISC, [hole(0.05, 0.2, [0, 0, 0], ABOUT_X)], CIRCLE * 0.2)
-        self.check(BOX, [hole(0.2, 0.4, [0, 0, 0]), hole(0.2, 0.4, [0.3, 0, 0])], 0.8 - CIRCLE * 0.016)  # the second overlaps the first
+        # The second hole overlaps the first.
+        self.check(BOX, [hole(0.2, 0.4, [0, 0, 0]), hole(0.2, 0.4, [0.3, 0, 0])], 0.8 - CIRCLE * 0.016)
 
     def test_random_holes_fill_the_outline_with_triangles(self):
         random = np.random.default_rng(7)

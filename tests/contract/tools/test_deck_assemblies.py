@@ -1,4 +1,5 @@
-"""Abaqus decks of parts and instances: a part that is moved and turned equals the same mesh written in place."""
+"""Tests of Abaqus decks with parts and instances: a part that is moved and rotated equals the same mesh written in
+place."""
 
 import unittest
 
@@ -20,13 +21,13 @@ MOVED = f"{SHIFT[0]}, {SHIFT[1]}, {SHIFT[2]}\n{A[0]}, {A[1]}, {A[2]}, {B[0]}, {B
 
 
 def moved(points):
-    """The translation, then the rotation about the axis from A to B."""
+    """Applies the translation, then the rotation about the axis from A to B."""
     axis = np.subtract(B, A) / np.linalg.norm(np.subtract(B, A))
     return Rotation.from_rotvec(np.radians(ANGLE) * axis).apply(np.asarray(points) + SHIFT - A) + A
 
 
 def volume(mesh):
-    """The volume of a mesh by the quadrature of its cells."""
+    """Returns the volume of a mesh by the quadrature of its cells."""
     cells = {kind: block[:, permutation(kind, "gmsh", "vtk")] for kind, block in mesh.cells.items() if kind in SOLIDS}
     return sum(found.sum() for found in volumes(mesh.points, cells).values())
 
@@ -62,7 +63,7 @@ class Instances(Decks):
         return f"*ASSEMBLY, NAME=ALL\n{text}{extra}*END ASSEMBLY\n{STEEL}"
 
     def check_places(self, mesh, *sets):
-        """The nodes of the mesh stand in the places of the sets, to 1e-12 of the size."""
+        """The nodes of the mesh are at the places of the sets, within 1e-12 of the size."""
         places = np.concatenate(sets)
         self.assertEqual(len(mesh.points), len(places))
         np.testing.assert_allclose(mesh.points, places, atol=1e-12)

@@ -1,4 +1,5 @@
-"""Decks with slips, foreign encodings and ends of lines: read as meant, or refused by one sentence with the line."""
+"""Tests of decks with mistakes, other encodings and line ends: they are read as intended, or refused with one sentence
+that tells the line."""
 
 import unittest
 

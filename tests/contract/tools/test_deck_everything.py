@@ -1,4 +1,4 @@
-"""One body written as Nastran and as Abaqus in all their forms is the same mesh, in Bielle and in gmsh."""
+"""Tests that one body in all forms of Nastran and Abaqus is the same mesh, in Bielle and in gmsh."""
 
 import os
 import unittest
@@ -26,7 +26,7 @@ class EverythingInDecks(InFolder):
 
     @staticmethod
     def cells(mesh, numbers, cells):
-        """{type: set of the cells, each by the common numbers of its nodes}"""
+        """Returns {type: set of the cells, each as the common numbers of its nodes}."""
         return {kind: {frozenset(numbers[row].tolist()) for row in block} for kind, block in cells.items() if len(block)}
 
     def test_both_decks_are_the_same_body(self):

@@ -1,4 +1,4 @@
-"""Abaqus decks whose nodes and elements are generated equal the same decks written out."""
+"""Tests that Abaqus decks with generated nodes and elements equal the same decks written out."""
 
 import unittest
 
@@ -9,7 +9,7 @@ from test_deck_assemblies import Decks, volume
 from bielle_tools.decks.abaqus_file import read_abaqus, read_deck
 from bielle_tools.mesh.cells import triangles_of
 
-# The corners of a block of 4 x 2 x 2 hexahedra of 0.2 x 0.1 x 0.05: nodes 1 + i + 10 j + 100 k.
+# Corners of a block of 4 x 2 x 2 hexahedra of 0.2 x 0.1 x 0.05, which are nodes 1 + i + 10 j + 100 k.
 BLOCK = ("*NODE, NSET=CORNERS\n1, 0., 0., 0.\n5, .8, 0., 0.\n21, 0., .2, 0.\n25, .8, .2, 0.\n"
          "*NGEN, NSET=FRONT\n1, 5\n*NGEN, NSET=BACK\n21, 25, 1\n*NFILL, NSET=BOTTOM\nFRONT, BACK, 2, 10\n"
          "*NCOPY, CHANGE NUMBER=200, OLD SET=BOTTOM, NEW SET=TOP, SHIFT\n0., 0., .1\n\n*NFILL\nBOTTOM, TOP, 2, 100\n")
@@ -19,7 +19,7 @@ NODES = {1 + i + 10 * j + 100 * k: (.2 * i, .1 * j, .05 * k) for i in range(5) f
 
 class Generators(Decks):
     def nodes(self, text):
-        """{number: coordinates} of the nodes of a deck."""
+        """Returns {number: coordinates} of the nodes of a deck."""
         reader = read_deck(self.write("deck.inp", text))
         return {label: np.array(reader.points[row]) for label, row in reader.numbers.items()}
 
@@ -56,7 +56,7 @@ class Generators(Decks):
             found = self.nodes(f"{ends}*NGEN, LINE=C\n1, {extra}\n")
             for k, angle in enumerate(angles):
                 np.testing.assert_allclose(found[1 + k], [1 + np.cos(angle), 1 + np.sin(angle), 3], atol=1e-14)
-        found = self.nodes(f"{ends}*NGEN, LINE=C\n1, 9, 2, 50, , , , 0., 0., -1.\n")  # the longer way
+        found = self.nodes(f"{ends}*NGEN, LINE=C\n1, 9, 2, 50, , , , 0., 0., -1.\n")  # the longer arc
         for k, angle in enumerate(np.linspace(0, -1.5 * np.pi, 5)):
             np.testing.assert_allclose(found[1 + 2 * k], [1 + np.cos(angle), 1 + np.sin(angle), 3], atol=1e-14)
         found = self.nodes("*NODE\n1, 2., 0., 0.\n5, -2., 0., 0.\n*NGEN, LINE=C, SYSTEM=C\n1, 5, 1, , 0., 77., 0., 0., 0., 1.\n")
@@ -120,7 +120,7 @@ class Generators(Decks):
         self.refuse("*NODE, SYSTEM=Q\n1, 2., 90., 5.\n", "expected SYSTEM=R or C")
 
     def test_included_data_lines(self):
-        """A file may hold data lines alone, and keywords after them."""
+        """A file may contain data lines first, and keywords after them."""
         self.write("rest.inc", "25, .8, .2, 0.\n** a comment\n*NGEN, NSET=FRONT\n1, 5\n")
         text = BLOCK.replace("25, .8, .2, 0.\n*NGEN, NSET=FRONT\n1, 5\n", "*INCLUDE, INPUT=rest.inc\n")
         mesh = self.read(text + CELLS + "*SURFACE, NAME=S\nBODY, S1\n")

@@ -1,4 +1,4 @@
-"""Surfaces of *TIE: coinciding meshes are joined, others refused."""
+"""Tests of surfaces of *TIE: coinciding meshes are joined, others are refused."""
 
 import unittest
 
@@ -7,7 +7,7 @@ from test_deck_assemblies import Decks, volume
 
 
 def right(box):
-    """*SURFACE of the faces at the end x."""
+    """Returns a *SURFACE of the faces at the end x."""
     other = Box.__new__(Box)
     other.__dict__ = dict(box.__dict__, left=lambda: [k for k, x in enumerate(box.points) if x[0] == SIZE[0]])
     return other.surface("END")
@@ -18,7 +18,7 @@ class Ties(Decks):
         return f"*PART, NAME={name}\n{box.abaqus(box.surface('START') + right(box))}*END PART\n"
 
     def chain(self, order=2, second=None, at=SIZE[0], tie="A.END, B.START\n", kind="hexahedron"):
-        """Two boxes in a row along x, tied."""
+        """Returns two boxes in a row along x, which are tied."""
         one = Box((kind,) * 3, order)
         return (self.part(one, "P") + self.part(second or one, "Q") + "*ASSEMBLY, NAME=A0\n*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n"
                 f"*INSTANCE, NAME=B, PART=Q\n{at:.17g}, 0., 0.\n*END INSTANCE\n*TIE, NAME=WELD, ADJUST=YES\n{tie}*END ASSEMBLY\n")
@@ -26,16 +26,16 @@ class Ties(Decks):
     def test_coinciding_meshes_get_common_nodes(self):
         for order, kind, common in ((1, "hexahedron", 9), (2, "hexahedron", 21), (1, "wedge", 9), (2, "wedge", 21), (2, "tetra", 25)):
             single = Box((kind,) * 3, order)
-            single.abaqus()  # makes its mid-side nodes
+            single.abaqus()  # creates the mid-side nodes
             double = self.read(self.chain(order, kind=kind))
             self.assertEqual(sum(x[0] == 0 for x in single.points), common)
             self.assertEqual(len(double.points), 2 * len(single.points) - common)
             self.assertAlmostEqual(volume(double) / (2 * VOLUME), 1, delta=1e-12)
-            self.assertEqual(set(double.surfaces), {"A.START", "B.END"})  # the tied ones are inside
+            self.assertEqual(set(double.surfaces), {"A.START", "B.END"})  # tied faces are inside
             self.assertIn(f"*TIE, NAME=WELD: {common} nodes of 'A.END' and 'B.START' have become common ones (the largest gap was 0)", double.notes)
 
     def test_a_joined_chain_equals_a_long_box(self):
-        """The same cells as those of one instance of six, with other numbers of the nodes."""
+        """The cells are those of one instance of six, with other node numbers."""
         def cells(mesh):
             return sorted(tuple(map(tuple, mesh.points[row].round(9))) for row in mesh.cells["hexahedron20"])
         double = self.read(self.chain())
@@ -44,7 +44,7 @@ class Ties(Decks):
         self.assertEqual(cells(double), cells(self.read(long.abaqus())))
 
     def test_a_ring_of_ties(self):
-        """Four boxes around an edge: a node of the edge is tied three times, and becomes one."""
+        """Four boxes meet at an edge: a node of the edge is tied three times, and becomes one node."""
         box = Box(("hexahedron",), 1)
         sides = {"Y0": (1, 0.0), "Y1": (1, SIZE[1]), "Z0": (2, 0.0), "Z1": (2, SIZE[2])}
         part = f"*PART, NAME=P\n{box.abaqus()}"
@@ -60,7 +60,7 @@ class Ties(Decks):
         self.assertAlmostEqual(volume(mesh) / (4 * VOLUME), 1, delta=1e-12)
 
     def test_small_gaps_are_closed_and_large_ones_refused(self):
-        edge = 0.1 * 0.5  # the shortest of the surfaces: along z
+        edge = 0.1 * 0.5  # the shortest edge of the surfaces, along z
         self.read(self.chain(at=SIZE[0] + 9e-4 * edge))
         self.assertIn("largest gap was 4.5e-05", " ".join(self.mesh.notes))
         self.refuse(self.chain(at=SIZE[0] + 2e-3 * edge), "*TIE, NAME=WELD: 21 of 21 nodes of 'A.END' do not coincide", "gap is 0.0001,")

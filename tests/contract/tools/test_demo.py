@@ -1,4 +1,4 @@
-"""tools/demo, as the README tells users to run it: it succeeds, and all files that it names exist."""
+"""Tests that tools/demo, run as in the README, succeeds, and that all files that it names exist."""
 
 import os
 import re
@@ -17,7 +17,7 @@ class Demo(unittest.TestCase):
     def test_from_the_solid_rod_to_pictures_of_the_engine(self):
         superelement = os.path.join(REPOSITORY, "mechanism", "examples", "conrod.h5")
         if os.path.exists(superelement):
-            os.remove(superelement)  # result of an earlier run, which would be reused
+            os.remove(superelement)  # removes the result of an earlier run, which would be reused
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([os.path.join(REPOSITORY, "tools", "demo"), "-o", folder], text=True, capture_output=True,
                                   stdin=subprocess.DEVNULL, timeout=1500, env={**os.environ, "DISPLAY": ""})

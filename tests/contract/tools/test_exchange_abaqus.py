@@ -1,4 +1,5 @@
-"""Matrices of Abaqus: substructures, *MATRIX GENERATE in both forms, and the refusals of files that are no free body."""
+"""Tests of matrices of Abaqus: substructures, *MATRIX GENERATE in both forms, and refusals of files that are not a free
+body."""
 
 import os
 import unittest
@@ -10,7 +11,7 @@ from bielle_tools.exchange import formats
 from bielle_tools.exchange.axes import in_body_axes
 
 NODES = "*NODE\n 4, 0.5, 0.25, 0\n 2, 1., 0., 0.\n"
-# Two nodes, of which the first has x and y, the second z and a rotation; CalculiX' and Abaqus' habits of lines.
+# The first of two nodes has x and y, the second one z and a rotation; lines are written as by CalculiX and Abaqus.
 ELEMENT = """** a substructure
 *USER ELEMENT, NODES=2, LINEAR
 ** ELEMENT NODES
@@ -100,7 +101,7 @@ class Assembled(Exchange):
         np.testing.assert_array_equal(found.numbers[found.unknown_nodes], [2, 4])
 
     def test_coordinate(self):
-        # Rows in ascending order of the nodes: 2 x y z, 4 x y z; and by a table.
+        # The rows are in ascending order of the nodes, 2 x y z, 4 x y z, or in the order of a table.
         mass = "".join(f"{k} {k} 1\n" for k in range(1, 7))
         stiffness = "1 1 5\n1 6 -2.5e0\n6 1 -2.5e0\n" + "".join(f"{k} {k} 4\n" for k in range(2, 7))
         found = self.read("abaqus", self.files(stiffness, mass))
@@ -128,7 +129,7 @@ class Assembled(Exchange):
         self.assertEqual(sorted((found.stiffness[0, 1], found.stiffness[1, 0])), [-1.5, -1])
 
     def test_each_pair_once_on_either_side(self):
-        """Entries of a symmetric matrix, one of which is above the diagonal and one below."""
+        """The entries of a symmetric matrix are above and below the diagonal."""
         mass = "".join(f"{node},{component}, {node},{component}, 1\n" for node in (2, 4) for component in (1, 2))
         found = self.read("abaqus", self.files(mass + "2,1, 4,1, 5\n4,2, 2,1, 6\n", mass))
         np.testing.assert_array_equal(found.stiffness.toarray(), [[1, 0, 5, 6], [0, 1, 0, 0], [5, 0, 1, 0], [6, 0, 0, 1]])

@@ -1,4 +1,4 @@
-"""Arrays of NumPy, MATLAB and FEDEM: files that hold whole matrices."""
+"""Tests of files of NumPy, MATLAB and FEDEM with complete matrices."""
 
 import struct
 import unittest
@@ -66,7 +66,8 @@ class Npz(Exchange):
 
 class Superelement(Exchange):
     def test_recovery_of_some_nodes(self):
-        """A file that keeps four of five nodes, with and without cells: a tetrahedron of them, and another one."""
+        """Tests a file that keeps four of five nodes, with a tetrahedron of them, with another one, and without
+        cells."""
         for cells in (True, False):
             with h5py.File(self.path("s.h5"), "w") as file:
                 file["mesh/points"], displacement = np.arange(15.0).reshape(5, 3), np.arange(72.0).reshape(12, 6)
@@ -125,7 +126,7 @@ class Fedem(Exchange):
         self.same(self.read_back("fedem", body, self.path("part.fmx")), body, damping=False)
 
     def test_bytes(self):
-        """The layout of binaryDB.c and FFaTag.C, in the other order of bytes, with columns one after another."""
+        """The layout is that of binaryDB.c and FFaTag.C in the other byte order, with columns one after another."""
         K = np.arange(36.0).reshape(6, 6)
         for name, tag, matrix in (("S", b"stiffness", K), ("M", b"mass", np.eye(6))):
             content = (b"#FEDEM " + tag + b" matrix").ljust(30) + struct.pack(">HII", 0x1234, 0, 77) + b";1.0;\n"

@@ -1,6 +1,5 @@
-"""Matrices of CalculiX: files as they are written, and of runs of the program where it is installed."""
+"""Tests of matrices of CalculiX: written files, and files of runs of the program if it is installed."""
 
-import itertools
 import os
 import shutil
 import subprocess
@@ -10,6 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from exchange_bodies import Exchange, cloud_body, rigid_of
+from kuhn_cubes import kuhn_cubes
 
 MATERIAL = "*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.3\n*DENSITY\n4.\n"
 STORE = "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n"
@@ -37,15 +37,8 @@ PLATE = """*NODE
 
 
 def tetrahedra(cubes):
-    """Deck of cubes in a row, each of six tetrahedra with ten nodes around a diagonal."""
-    numbers, elements = {}, []
-    for x in range(cubes):
-        for path in itertools.permutations(np.eye(3, dtype=int)):
-            corners = np.cumsum([np.array([x, 0, 0]), *path], axis=0)
-            if np.linalg.det(corners[1:] - corners[0]) < 0:
-                corners = corners[[0, 2, 1, 3]]
-            middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
-            elements.append([numbers.setdefault(tuple(map(float, place)), len(numbers) + 1) for place in (*corners, *middles)])
+    """Returns a deck of cubes in a row, each of six tetrahedra with ten nodes around a diagonal."""
+    numbers, elements = kuhn_cubes(cubes)
     nodes = "".join(f"{number}, {x}, {y}, {z}\n" for (x, y, z), number in numbers.items())
     cells = "".join(f"{k}, {', '.join(map(str, element))}\n" for k, element in enumerate(elements, 1))
     return f"*NODE\n{nodes}*ELEMENT, TYPE=C3D10, ELSET=E\n{cells}*SOLID SECTION, ELSET=E, MATERIAL=M\n{MATERIAL}"
@@ -83,7 +76,7 @@ class Files(Exchange):
     def test_substructure(self):
         body = cloud_body()
         self.same(self.read_back("calculix", body, self.path("a.mtx")), body)
-        # Abaqus' reader takes the form of CalculiX as well: a node for each unknown.
+        # Abaqus' reader also accepts the form of CalculiX, which has a node for each unknown.
         self.same(self.read("abaqus", self.path("a.mtx"), nodes=self.path("a_nodes.inp")), body)
 
 
@@ -94,7 +87,7 @@ class Runs(Exchange):
         subprocess.run(["ccx", "job"], cwd=self.folder, check=True, capture_output=True, timeout=120)
 
     def check_rigid(self, found, mass, centre, inertia, within):
-        """Rigid motions have no forces, and the inertia of a box."""
+        """Asserts that rigid motions cause no forces and have the inertia of a box."""
         motions = rigid_of(found.positions, 3)[3 * found.unknown_nodes + found.unknown_components]
         K, M = found.stiffness.toarray(), found.mass.toarray()
         self.assertLess(np.abs(K @ motions).max(), within * np.abs(K).max())
@@ -114,14 +107,15 @@ class Runs(Exchange):
                      f"\n*SOLID SECTION, ELSET=E, MATERIAL=M\n{MATERIAL}{STORE}")
         found = self.read("calculix", self.path("job.sti"))
         self.assertEqual((found.size, len(found.numbers), found.notes), (30, 10, []))
-        # A tetrahedron with legs a b c: V = abc / 6, moments of x^2: a^2 V / 10, of xy: a b V / 20.
+        # A tetrahedron with legs a b c has V = abc / 6, the moment a^2 V / 10 of x^2, and a b V / 20 of xy.
         legs, mass = np.array([1.0, 2, 3]), 4.0
         second = mass * np.outer(legs, legs) / 20 * (1 + np.eye(3))
         self.check_rigid(found, mass, legs / 4, np.trace(second) * np.eye(3) - second, 1e-12)
         self.assertEqual(np.count_nonzero(np.linalg.eigvalsh(found.stiffness.toarray()) > 1), 24)
 
     def test_internal_modes(self):
-        """C3D8I: the unknowns of internal nodes are condensed, against the dense Schur complement of CalculiX' own entries."""
+        """The unknowns of internal nodes of C3D8I are condensed; the reference is the dense Schur complement of
+        CalculiX' own entries."""
         corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
         nodes = "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners, 1))
         self.run_job(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8I, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 5, 6, 7, 8, 9, 10, 11, 12\n"
@@ -149,7 +143,7 @@ class Runs(Exchange):
         self.assertEqual(set(np.round(found.positions[:, 2], 9)), {-0.05, 0, 0.05})
 
     def own_frequencies(self, count):
-        """The frequencies [Hz] that CalculiX prints."""
+        """Returns the frequencies [Hz] that CalculiX prints."""
         rows = []
         with open(self.path("job.dat"), encoding="utf-8") as file:
             for line in file:
@@ -160,13 +154,14 @@ class Runs(Exchange):
         return np.array(rows)
 
     def test_frequencies_are_those_of_calculix(self):
-        """Eigenvalues of the matrices that are read, against those of CalculiX' own step; its prints have seven digits."""
+        """Compares eigenvalues of the matrices that were read with those of CalculiX' own step, which prints seven
+        digits."""
         solid = tetrahedra(3)
         for told, deck in (("C3D10", solid), ("S8", PLATE + MATERIAL)):
             with self.subTest(told):
                 self.run_job(deck + EXPANDED.replace("1\n*NODE", "12\n*NODE") + STORE)
                 found = self.read("calculix", self.path("job.sti"))
-                # Integrated at four points, the mass of these tetrahedra is singular: K + M is not.
+                # The mass of these tetrahedra is singular, since it is integrated at four points, but K + M is not.
                 K, M = found.stiffness.toarray(), found.mass.toarray()
                 values = 1 / scipy.linalg.eigh(M, K + M, eigvals_only=True)[::-1][6:12] - 1
                 np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), self.own_frequencies(12)[6:], rtol=1e-6)
@@ -196,7 +191,8 @@ class Runs(Exchange):
             text = file.read()
         self.write("part.mtx", text + "*MATRIX, TYPE=MASS\n" + "".join("0, " * k + "1\n" for k in range(9)))
         found = self.read("calculix", path, nodes=self.path("job.inp"))
-        # The full matrices of another run, condensed. CalculiX 2.20 writes their block of the retained unknowns without the rest.
+        # The reference is the condensation of the full matrices of another run. CalculiX 2.20 writes only their block
+        # of the retained unknowns.
         self.run_job(deck + STORE)
         full = self.read("calculix", self.path("job.sti")).stiffness.toarray()
         schur = full[:9, :9] - full[:9, 9:] @ np.linalg.solve(full[9:, 9:], full[9:, :9])

@@ -1,4 +1,5 @@
-"""Damaged files of matrices: bytes that are flipped, cut off or doubled are read or refused by one sentence."""
+"""Tests of damaged files of matrices: files with flipped, removed or repeated bytes are read, or refused with one
+sentence."""
 
 import os
 import random
@@ -10,16 +11,16 @@ from bielle_tools.exchange import formats
 from bielle_tools.messages import InputError
 
 STI = "".join(f"{i} {j} {1.5 * i - j if i != j else 10 + i}\n" for j in range(1, 7) for i in range(1, j + 1))
-# Name of the format: the file that is read, options of reading. Files are those of a writer, or texts.
+# {name of the format: file that is read, options of reading}. Files are those of a writer, or texts.
 WRITTEN = {"abaqus": ("a.mtx", {}), "matrix_input": ("a_STIF1.mtx", {}), "calculix": ("a.mtx", {}), "matrix_market": ("a_stiffness.mtx", {}),
            "npz": ("a.npz", {}), "exudyn": ("a.npz", {"interfaces": [1, 2, 3]}), "mbdyn": ("a.fem", {"interfaces": [3]}), "simscape": ("a.mat", {}),
            "fedem": ("a_S.fmx", {})}
-COUNT = int(os.environ.get("BIELLE_DAMAGES", "20"))  # damages per file
+COUNT = int(os.environ.get("BIELLE_DAMAGES", "20"))  # number of damages per file
 
 
 class Damage(Exchange):
     def damaged(self, content, rng):
-        """Some bytes flipped, the end cut off, or a part doubled."""
+        """Flips some bytes, cuts off the end, or repeats a part."""
         data = bytearray(content)
         kind = rng.randrange(3)
         if kind == 0:

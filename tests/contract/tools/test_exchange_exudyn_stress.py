@@ -1,4 +1,5 @@
-"""Stress of Exudyn's .npz files, whose dictionary is pickled: read without its modules, and without running anything."""
+"""Tests of stress of Exudyn's .npz files with a pickled dictionary, which is read without Exudyn's modules and without
+running code."""
 
 import os
 import pickle
@@ -17,7 +18,7 @@ NODES, MODES_OF_STRESS = 12, 1 << 29
 
 
 class OutputVariableType:
-    """An enumerator as pybind11 pickles it: the class of exudyn.exudynCPP, and its number as the state."""
+    """An enumerator as pybind11 pickles it: the class in exudyn.exudynCPP, and its number as the state."""
 
     __module__ = "exudyn.exudynCPP"
 
@@ -32,7 +33,7 @@ class OutputVariableType:
 
 
 class Shell:
-    """An object whose pickle runs a command where it is loaded."""
+    """An object whose pickle runs a command when it is loaded."""
 
     def __init__(self, path):
         self.path = path
@@ -48,7 +49,7 @@ class Pickled(Exchange):
         with np.load(self.path("a.npz")) as file:
             self.keys = {name: file[name] for name in file.files if name != "postProcessingModes"}
         self.stress = np.random.default_rng(6).normal(size=(NODES, 6 * self.keys["modeBasis"].shape[1]))
-        # pickle looks the class up by its name; the reader must not need it.
+        # pickle finds the class by its name, which the reader must not need.
         sys.modules["exudyn"], sys.modules["exudyn.exudynCPP"] = types.ModuleType("exudyn"), types.ModuleType("exudyn.exudynCPP")
         sys.modules["exudyn.exudynCPP"].OutputVariableType = OutputVariableType
 
@@ -62,7 +63,7 @@ class Pickled(Exchange):
             sys.modules.pop(name, None)
 
     def write_file(self, recovery, protocol=4):
-        """Writes the file as numpy.savez does, with a protocol of pickle."""
+        """Writes the file as numpy.savez does, with a given protocol of pickle."""
         whole = np.empty((), object)
         whole[()] = recovery
         with zipfile.ZipFile(self.path("b.npz"), "w") as archive:
@@ -74,12 +75,12 @@ class Pickled(Exchange):
                 stream.write(pickle.dumps(whole, protocol))
 
     def found(self, recovery, protocol=4):
-        """The body of the file."""
+        """Returns the body of the file."""
         self.write_file(recovery, protocol)
         return self.read("exudyn", self.path("b.npz"), interfaces=[1, 2, 3])
 
     def test_orders_and_enumerators(self):
-        """All forms of the same stress give the same body."""
+        """Asserts that all forms of the same stress give the same body."""
         expected = self.found({"matrix": self.stress, "outputVariableType": "OutputVariableType.StressLocal"}).shapes.stress
         for matrix in (np.asfortranarray(self.stress), self.stress.astype(">f8")):
             for kind in (OutputVariableType(MODES_OF_STRESS), MODES_OF_STRESS, "OutputVariableType.StressLocal"):
@@ -87,7 +88,7 @@ class Pickled(Exchange):
                     got = self.found({"matrix": matrix, "outputVariableType": kind}, protocol).shapes.stress
                     np.testing.assert_array_equal(got, expected)
         self.write_file({"matrix": self.stress, "outputVariableType": OutputVariableType(MODES_OF_STRESS)})
-        self.forget()  # on a machine without Exudyn
+        self.forget()  # as on a machine without Exudyn
         np.testing.assert_array_equal(self.read("exudyn", self.path("b.npz"), interfaces=[1, 2, 3]).shapes.stress, expected)
 
     def test_modes_have_the_stress_of_the_file(self):
@@ -104,7 +105,8 @@ class Pickled(Exchange):
         np.testing.assert_allclose(file.shapes.stress @ rigid, 0, atol=1e-9)
 
     def test_an_object_of_the_file_is_not_made(self):
-        """A name of another object is not looked up, at any depth: no code of the file runs, and the rest is read."""
+        """Names of other objects are not looked up at any depth: no code of the file runs, and the other values are
+        read."""
         trap = Shell(self.path("ran"))
         for recovery in ({"matrix": trap}, {"matrix": self.stress, "outputVariableType": trap}, trap, [trap]):
             self.assertIsNone(self.found(recovery).shapes.stress)

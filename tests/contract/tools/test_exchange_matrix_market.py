@@ -1,4 +1,4 @@
-"""Matrix Market files with tables of nodes and unknowns."""
+"""Tests of Matrix Market files with tables of nodes and unknowns."""
 
 import unittest
 

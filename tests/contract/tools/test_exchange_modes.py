@@ -1,4 +1,5 @@
-"""Bodies in a floating frame: MBDyn's modal joint and Exudyn's reduced body, against a second reader and sums over points."""
+"""Compares bodies in a floating frame, MBDyn's modal joint and Exudyn's reduced body, with a second reader and with
+sums over points."""
 
 import re
 import unittest
@@ -15,12 +16,12 @@ from bielle_tools.messages import InputError
 
 
 def wedge(x):
-    """x~ with x~ y = x cross y."""
+    """Returns x~ with x~ y = x cross y."""
     return np.array([[0, -x[2], x[1]], [x[2], 0, -x[0]], [-x[1], x[0], 0]])
 
 
 def mbdyn_records(path):
-    """The numbers after each `** RECORD GROUP n`, as MBDyn reads them: a second reader, line by line."""
+    """Returns the numbers after each `** RECORD GROUP n`. It reads line by line, as MBDyn does."""
     with open(path, encoding="utf-8") as file:
         parts = re.split(r"^\*\* RECORD GROUP (\d+).*$", file.read(), flags=re.MULTILINE)[1:]
     records = {}
@@ -32,7 +33,7 @@ def mbdyn_records(path):
 
 class Modes(Exchange):
     def relation(self, body, found):
-        """L with y = L x: the motions of all points and nodes are those of the body."""
+        """Returns L with y = L x, and asserts that the motions of all points and nodes are those of the body."""
         def motions(matrices):
             at = np.zeros((len(body.numbers), 3, matrices.size))
             for row, (node, component) in enumerate(zip(matrices.unknown_nodes, matrices.unknown_components)):
@@ -49,7 +50,7 @@ class Modes(Exchange):
         return L
 
     def check_same_body(self, body, found, damping=True):
-        """Energies of all motions, and S_kl, are those of the body."""
+        """Asserts that the energies of all motions, and S_kl, are those of the body."""
         L = self.relation(body, found)
         pairs = [(getattr(found, name).toarray(), getattr(body, name).toarray()) for name in ("stiffness", "mass", "damping")[:2 + damping]]
         pairs += zip(found.inertia_components, body.inertia_components)
@@ -70,11 +71,11 @@ class Inertia(unittest.TestCase):
         second = sum(m * np.outer(x, x) for m, x in zip(masses, points))
         for got, expected in ((found.mass, masses.sum()), (found.first, masses @ points), (found.second, second), (found.product, product),
                               (found.linear, np.einsum("p,paj->ja", masses, shapes)), (found.square, square)):
-            # Shapes are mass-normalised and masses about 1; the linear moments of free modes are zero.
+            # Shapes are mass-normalised, and masses are about 1; the linear moments of free modes are zero.
             np.testing.assert_allclose(got, expected, rtol=0, atol=1e-11 * max(1, np.abs(expected).max()))
         same = moments_of_points(points, masses, shapes)
         np.testing.assert_allclose(same.square, square, atol=1e-12)
-        # And back: S_kl of rigid motions and modes.
+        # The conversion back gives S_kl of rigid motions and modes.
         basis = np.concatenate([free.rigid, free.modes], axis=1)
         for got, expected in zip(components_of(found), body.inertia_components):
             np.testing.assert_allclose(got, basis.T @ expected @ basis, rtol=0, atol=1e-11 * np.abs(got).max())
@@ -87,7 +88,7 @@ class Inertia(unittest.TestCase):
         np.testing.assert_allclose(found.centre, given.centre, atol=1e-12)
 
     def test_a_displacement_field_needs_no_components(self):
-        """Full matrices whose masses are equal in all directions."""
+        """Returns full matrices whose masses are equal in all directions."""
         body = cloud_body(nodes=4, scalars=0, components=3)
         random = np.random.default_rng(5)
         half = random.normal(size=(4, 4))
@@ -116,7 +117,7 @@ class Mbdyn(Modes):
         self.assertEqual(formats.format_of(self.path("a.fem")), "mbdyn")
 
     def test_the_manual(self):
-        """Every group against its definition in sums over the points of the body."""
+        """Compares every group with its definition as a sum over the points of the body."""
         body = cloud_body(nodes=2, scalars=2)
         formats.module_of("mbdyn").write(body, self.path("a.fem"), self.options())
         records = mbdyn_records(self.path("a.fem"))
@@ -130,7 +131,7 @@ class Mbdyn(Modes):
         M = np.einsum("p,jpa,kpa->jk", masses, phi[..., :3], phi[..., :3])
         np.testing.assert_allclose(records[9].reshape(modes, modes), M, rtol=0, atol=1e-11)
         self.assertLess(np.abs(M - np.eye(modes)).max(), 1e-11)
-        # Free modes: no momentum, no angular momentum; invariants 3 and 4.
+        # Free modes have neither momentum nor angular momentum, which are invariants 3 and 4.
         np.testing.assert_allclose(records[14].reshape(3, modes), np.einsum("p,jpa->aj", masses, phi[..., :3]), atol=1e-10)
         np.testing.assert_allclose(records[15].reshape(3, modes), np.einsum("p,jpa->aj", masses, np.cross(x, phi[..., :3])), atol=1e-10)
         self.assertLess(max(np.abs(records[14]).max(), np.abs(records[15]).max()), 1e-10)
@@ -149,7 +150,8 @@ class Mbdyn(Modes):
                                    [body.mass_properties.mass, *body.mass_properties.centre, *body.mass_properties.inertia.ravel()], atol=1e-12)
 
     def test_lumped_masses(self):
-        """A file with group 11 in place of the inertia: masses at nodes, also of an interface, with rotary inertia."""
+        """Tests a file with group 11 in place of the inertia: masses at nodes, including that of an interface, with
+        rotary inertia."""
         body = cloud_body(nodes=1, scalars=6, damping=False)
         formats.module_of("mbdyn").write(body, self.path("a.fem"), self.options())
         with open(self.path("a.fem"), encoding="utf-8") as file:
@@ -161,7 +163,7 @@ class Mbdyn(Modes):
         self.assertIsNone(found.inertia_components)
         L = self.relation(body, found)
         np.testing.assert_allclose(L.T @ found.mass.toarray() @ L, body.mass.toarray(), rtol=0, atol=1e-10 * np.abs(body.mass).max())
-        # The masses of the points, those of the interface among them, give the mass matrix again.
+        # The masses of the points, including those of the interface, give the mass matrix again.
         by_axis = found.shapes.displacement.reshape(-1, 3, found.size)
         again = np.einsum("p,pai,paj->ij", found.shapes.masses, by_axis, by_axis)
         np.testing.assert_allclose(again, found.mass.toarray(), rtol=0, atol=1e-10 * np.abs(again).max())
@@ -212,7 +214,7 @@ class Exudyn(Modes):
             np.testing.assert_allclose(L.T @ got @ L, old, rtol=0, atol=1e-10 * np.abs(old).max())
 
     def test_hdf5_with_stress(self):
-        """The same body in HDF5, as SaveDictToHDF5 writes it, with stress modes, (p,6m)."""
+        """Tests the same body in HDF5, as SaveDictToHDF5 writes it, with stress modes (p,6m)."""
         body = cloud_body(nodes=2, scalars=6, damping=False)
         random = np.random.default_rng(6)
         rigid = np.concatenate([rigid_of(body.positions), np.zeros((body.scalars, 6))])
@@ -228,7 +230,7 @@ class Exudyn(Modes):
             kinds = {name: member.attrs["datatype"] for name, member in file.items()}
             stress, modes = file["postProcessingModes/matrix"][()], file["modeBasis"][()].reshape(12, 3, -1)
         self.assertEqual((kinds["type"], kinds["modeBasis"], kinds["totalMass"], kinds["postProcessingModes"]), ("str", "ndarray", "float", "dict"))
-        # A mode of the file, in the unknowns that were read, has the stress of the file at the points that are left.
+        # A mode of the file, in the unknowns that were read, has the stress of the file at the remaining points.
         for k in range(modes.shape[2]):
             target = np.concatenate([modes[:3, :, k].ravel(), modes[3:, :, k].ravel()])
             at = np.zeros((9, found.size))
@@ -246,7 +248,7 @@ class Exudyn(Modes):
         self.refuse("exudyn", self.path("a.hdf5"), "is no readable HDF5 file", interfaces=[1, 2, 3])
 
     def test_the_definitions(self):
-        """Every key by the products of Exudyn's FEM.py, with the matrix of point masses."""
+        """Returns every key by the products of Exudyn's FEM.py, with the matrix of point masses."""
         body = turned_shapes(cloud_body(damping=False))
         formats.module_of("exudyn").write(body, self.path("a.npz"), self.options())
         with np.load(self.path("a.npz"), allow_pickle=False) as file:
@@ -286,7 +288,7 @@ class Exudyn(Modes):
 
 
 def turned_shapes(body):
-    """The body with nodes in axes of their own, its shapes and S_kl in their unknowns."""
+    """Returns the body with nodes in their own axes, and shapes and S_kl in their unknowns."""
     result = turned(cloud_body())
     T = np.zeros((body.size, body.size))
     for column, unit in enumerate(np.eye(body.size)):

@@ -1,4 +1,5 @@
-"""Matrices of bodies in decks of Nastran (DMIG) and in OUTPUT4 files with a deck: unknowns, axes, sets, shapes.
+"""Tests of matrices of bodies in decks of Nastran (DMIG) and in OUTPUT4 files with a deck: unknowns, axes, sets,
+shapes.
 
 The decks have the layout of those of the package pyYeti (pyyeti/tests/nastran_dmig_data, nas2cam_extseout), which Nastran
 wrote.
@@ -20,8 +21,8 @@ from bielle_tools.messages import InputError
 
 STEEL = (210e9, 7800.0, 0.5, 0.02)
 
-# Two masses of 2 and 3 and a spring of 10 between them along x, damped by 0.1, and a modal coordinate of stiffness 5 that
-# moves with the second one.
+# Two masses of 2 and 3 are connected by a spring of 10 along x with damping 0.1; a modal coordinate of stiffness 5 is
+# coupled with the second mass.
 SMALL = """$ a comment
 GRID           1              0.      0.      0.
 GRID           2              2.      0.      0.
@@ -84,7 +85,8 @@ class Dmig(Decks):
         for deck in (both, both.replace(lower, ""), both.replace("KAAX           0       6", "KAAX           0       1")):
             self.check(self.read(deck))
         one_sided = self.read(SMALL.replace("KAAX           0       6", "KAAX           0       1"))
-        np.testing.assert_array_equal(one_sided.stiffness.toarray(), [[10, 0, 0], [-10, 10, 0], [0, 0, 5]])  # as it stands in the file
+        # The entries are those of the file.
+        np.testing.assert_array_equal(one_sided.stiffness.toarray(), [[10, 0, 0], [-10, 10, 0], [0, 0, 5]])
         self.refuse(both.replace("-10.", "-11.", 1), "DMIG KAAX, column 2 1, row 1 1: has an entry on both sides of the diagonal, with two values, but "
                     "the form 6 (symmetric)")
 
@@ -115,13 +117,15 @@ class Dmig(Decks):
     def test_unknowns(self):
         axes = "CORD2R         5              0.      0.      0.      1.      0.      0.\n              0.      1.      0.\n"
         found = self.read(axes + SMALL.replace("2.      0.      0.\n", "2.      0.      0.       5\n", 1))
-        np.testing.assert_allclose(found.axes, [np.eye(3), [[0, 0, 1], [1, 0, 0], [0, 1, 0]]])  # z of the system along x, its x along y
+        # The system has z along x, and x along y.
+        np.testing.assert_allclose(found.axes, [np.eye(3), [[0, 0, 1], [1, 0, 0], [0, 1, 0]]])
         self.refuse(SMALL.replace("GRID           2 ", "GRID           3 "), "1 of the point 2, which does not exist")
         self.refuse(SMALL.replace("11       0              11       0      5.", " 1       0               1       0      5."),
                     "names the point 1 without a component, but it is a GRID")
         self.refuse(SMALL.replace("ASET1          1       1       2", "ASET1          1       1       2       4"), "component 1 of the point 4, which does")
         self.refuse(SMALL.replace("SPOINT        11", "SPOINT         2"), "the point 2 is both a GRID and an SPOINT")
-        found = self.read(SMALL.replace("ASET1          1       1", "ASET1         12       1"))  # y is in the a-set, and without stiffness
+        # Direction y is in the a-set and has no stiffness.
+        found = self.read(SMALL.replace("ASET1          1       1", "ASET1         12       1"))
         self.assertEqual((found.size, list(found.unknown_components)), (5, [0, 1, 0, 1, 0]))
         without = self.read("\n".join(line for line in SMALL.splitlines() if "SET1" not in line and "SPOINT" not in line) + "\n")
         self.check(without)
@@ -138,7 +142,8 @@ class Dmig(Decks):
         deck = many + head.replace("DMIG    KAAX           0", every + "DMIG    KAAX           0") + columns + "DMIG    MAAX" + tail
         self.assertEqual(len(self.read(deck).interfaces), 62)
         deck = "\n".join(line for line in deck.splitlines() if "   11  " not in line) + "\n"
-        self.assertEqual(self.read(deck).interfaces, {})  # all are in the a-set, which tells nothing unless the body has modes
+        # All unknowns are in the a-set, which is ambiguous unless the body has modes.
+        self.assertEqual(self.read(deck).interfaces, {})
         self.assertEqual(self.read(deck + "BSET1,1,30,2\n").interfaces, {"node_2": 1, "node_30": 12})
 
     def test_refused_cards(self):
@@ -195,7 +200,8 @@ class Dmig(Decks):
         lines = whole.splitlines(keepends=True)
         told = "DMIG MUG1 has no card for the column {} of 3: zero, unless the file lacks lines"
         without = "".join(lines[:-1])
-        self.assertIn(told.format(3), self.read(without).notes)       # that of the only mode: all of its shapes may be zero
+        # The only mode of the last row may have zero shapes.
+        self.assertIn(told.format(3), self.read(without).notes)
         self.assertIn(told.format(2), self.read("".join(lines[:-2] + lines[-1:])).notes)
         empty = self.read(without + "DMIG,MUG1,3,0\n")
         self.assertEqual(empty.notes, [])
@@ -210,7 +216,7 @@ class Dmig(Decks):
         self.assertEqual(self.read(modes + "DMIG,MUG1,4,0\n").notes, [])
 
     def test_a_last_column_that_is_short(self):
-        """Cut off between two lines, a file may still hold all of its columns."""
+        """A file that is cut off between two lines may still contain all of its columns."""
         body = cloud_body(damping=False)
         dmig.write(body, self.path("a.pch"))
         with open(self.path("a.pch"), encoding="ascii") as file:
@@ -288,7 +294,7 @@ class RoundTrips(Decks):
 
     def test_numbers_of_points(self):
         body = with_modes(beam(*STEEL))
-        body.shapes.numbers = np.array([7, 8, 12])  # those of the nodes, at other places
+        body.shapes.numbers = np.array([7, 8, 12])  # the nodes at other places
         dmig.write(body, self.path("body.pch"))
         found = dmig.read(self.path("body.pch"), Options())
         self.assertEqual(list(found.shapes.numbers), [107, 108, 112])
@@ -315,7 +321,7 @@ SPOINT,11
 
 
 class Op4Order(InFolder):
-    """Order of the unknowns of OUTPUT4 files: points by ascending numbers."""
+    """Tests the order of the unknowns of OUTPUT4 files, points by ascending numbers."""
 
     def matrices(self, size, names=("KGG", "MGG"), **more):
         a = np.random.default_rng(size).standard_normal((size, size))
@@ -385,7 +391,8 @@ class Op4Order(InFolder):
             np.testing.assert_array_equal(found.stiffness.toarray(), matrices["KGG"])
             self.assertIn("KGG is symmetric by its form and holds one triangle: the other one is the same", found.notes)
         content = binary({"KGG": np.tril(matrices["KGG"]), "MGG": matrices["MGG"]}, form=1)
-        np.testing.assert_array_equal(self.read({}, POINTS, content).stiffness.toarray(), np.tril(matrices["KGG"]))  # for the check
+        # A triangle of form 1 is not completed, and the check of symmetry reports it.
+        np.testing.assert_array_equal(self.read({}, POINTS, content).stiffness.toarray(), np.tril(matrices["KGG"]))
 
     def test_complex(self):
         matrices = self.matrices(13)

@@ -1,4 +1,5 @@
-"""OUTPUT4 files of Nastran: every layout is read, what is written is read back, and damaged files give one sentence.
+"""Tests of OUTPUT4 files of Nastran: every layout is read, written files are read back, and damaged files give one
+sentence.
 
 The layouts are those of the files of the package pyYeti (github.com/twmacro/pyyeti, pyyeti/tests/nastran_op4_data), which
 Nastran wrote.
@@ -17,7 +18,7 @@ from bielle_tools.messages import InputError
 
 
 def sample(rows=9, count=7, seed=2, complexity=0):
-    """A matrix with empty columns and holes."""
+    """Returns a matrix with empty columns and gaps."""
     random = np.random.default_rng(seed)
     matrix = random.standard_normal((rows, count)) * 10.0 ** random.integers(-9, 9, (rows, count))
     matrix[random.random((rows, count)) < 0.4] = 0
@@ -104,7 +105,8 @@ class Writing(Op4):
                     content = file.read()
                 self.assertEqual(op4_binary.kind_of(content), (order, 4))
                 self.check(content, matrices, 0)
-            self.assertEqual(content, binary(matrices, "big" if sparse else "dense", ">", form=2))  # the last of them
+            # The content is the last matrix of this name.
+            self.assertEqual(content, binary(matrices, "big" if sparse else "dense", ">", form=2))
             op4_text.write_text(self.path("b.op4"), written, sparse)
             with open(self.path("b.op4"), encoding="ascii") as file:
                 content = file.read()

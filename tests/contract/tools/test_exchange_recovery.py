@@ -1,4 +1,4 @@
-"""Recovered quantities, stress at points and cells in the formats of matrices.
+"""Tests of recovered quantities, of stress at points, and of cells in the formats of matrices.
 
 The tables have the layout of EXTSEOUT's punch files (pyyeti/tests/nas2cam_extseout): TYPE, ID, COMP, ROW.
 """
@@ -28,7 +28,7 @@ TABLES = ("DTI     TES1    2\n        TYPE    ID      COMP    ROW     TYPE    ID
 
 
 def with_recovery(body, seed=8):
-    """A body with stress at two of its points and two quantities."""
+    """Returns a body with stress at two of its points, and with two quantities."""
     random = np.random.default_rng(seed)
     n = body.size
     shapes = dataclasses.replace(body.shapes, stress=1e9 * random.standard_normal((12, n)), stress_points=np.array([2, 0]))
@@ -57,7 +57,7 @@ class Recovery(InFolder):
         return with_recovery(with_modes(beam(*STEEL, turned() if turn else None)))
 
     def test_round_trips(self):
-        """Binary and text of OUTPUT4 keep 16 digits, DMIG 11 at least."""
+        """OUTPUT4 has 16 digits, in binary and in text, and DMIG has at least 11."""
         for name, path, within in (("matrices", "a.h5", 0), ("npz", "a.npz", 0), ("op4", "a.op4", 0), ("op4-text", "b.op4", 1e-15),
                                    ("dmig", "a.pch", 1e-10)):
             with self.subTest(name):
@@ -70,7 +70,8 @@ class Recovery(InFolder):
                 self.assertEqual(found.quantities["loads"].units, ["N", "N m", "-"])
 
     def test_names_in_comments(self):
-        """A request has precedence; comments that do not fit are not used, and a deck without them leaves the matrix out."""
+        """A request has precedence. Comments that do not fit are ignored, and a deck without comments omits the
+        matrix."""
         for name, path, deck in (("op4", "a.op4", "a-nodes.bdf"), ("dmig", "a.pch", "a.pch")):
             formats.module_of(name).write(self.body(), self.path(path), formats.Options(format=name))
             with open(self.path(deck), encoding="ascii") as file:
@@ -95,20 +96,22 @@ class Recovery(InFolder):
                 self.assertIn("left out: the matrices OTM1, OTM2", " ".join(bare.notes))
 
     def test_units(self):
-        """The same motion recovers the same stress, force and moment in every system."""
+        """Tests that the same motion recovers the same stress, force and moment in every system of units."""
         body = self.body(turn=False)
         there = converted(body, SI, read_units("mm-t-s", "--to-units"))
         motion = np.random.default_rng(2).standard_normal(body.size)
-        # A unit of an amplitude is one in which its modal mass is that of the file: kilograms and metres become tonnes and millimetres.
+        # The unit of an amplitude is such that its modal mass is that of the file; kilograms and metres become tonnes
+        # and millimetres.
         scale = np.where((body.unknown_nodes >= 0) & (body.unknown_components < 3), 1e3, 1.0)
         np.testing.assert_allclose(there.shapes.stress @ (scale * motion), 1e-6 * body.shapes.stress @ motion)
-        for row, factor in enumerate((1, 1e3, 1)):  # N, N mm, a share
+        for row, factor in enumerate((1, 1e3, 1)):  # N, N mm, dimensionless
             np.testing.assert_allclose(there.quantities["loads"].matrix[row] @ (scale * motion), factor * body.quantities["loads"].matrix[row] @ motion)
 
     def test_body_axes(self):
         body = self.body()
         found = in_body_axes(body)
-        back = np.linalg.solve(found.stiffness.toarray()[:12, :12] + np.eye(12), np.eye(12))  # any motion of the turned body
+        # The solution is an arbitrary motion of the rotated body.
+        back = np.linalg.solve(found.stiffness.toarray()[:12, :12] + np.eye(12), np.eye(12))
         motion = np.concatenate([back[:, 0], np.zeros(body.size - 12)])
         own = motion.copy()
         own[6:9], own[9:12] = body.axes[1].T @ motion[6:9], body.axes[1].T @ motion[9:12]
@@ -177,7 +180,7 @@ class Recovery(InFolder):
 
 class Cells(InFolder):
     def test_numbers_and_orders(self):
-        """A tetrahedron of ten nodes: gmsh exchanges the last two of VTK's."""
+        """In a tetrahedron of ten nodes, gmsh exchanges the last two of VTK's."""
         numbers = np.array([30, 10, 20, 40, 50, 60, 70, 80, 90, 100, 5])
         cells = cells_between([("tetra10", [[10, 20, 30, 40, 50, 60, 70, 80, 90, 100], [10, 20, 30, 40, 50, 60, 70, 80, 90, 7]])], numbers)
         self.assertEqual(list(cells), [11])
@@ -189,7 +192,7 @@ class Cells(InFolder):
         self.assertEqual({kind: block.tolist() for kind, block in blocks.items()}, {"quad": [[1, 2, 3, 4]], "triangle": [[1, 2, 3]]})
 
     def test_results_of_calculix(self):
-        """A hexahedron of twenty nodes, in CalculiX' order: edges below, edges upwards, edges above."""
+        """A hexahedron of twenty nodes has CalculiX' order: edges of the base, upward edges, edges of the top."""
         first = "".join(f"{k:10d}" for k in range(1, 11))
         rest = "".join(f"{k:10d}" for k in range(11, 21))
         self.write("a.frd", f"    2C\n -3\n    3C                             1\n -1         1    4    0    1\n -2{first}\n -2{rest}\n -3\n")

@@ -1,4 +1,5 @@
-"""A superelement goes to Nastran and back through bielle-exchange and bielle-reduce, and stays the same body."""
+"""Tests that a superelement is the same body after bielle-exchange has written it for Nastran and bielle-reduce has
+read it."""
 
 import os
 import subprocess
@@ -9,7 +10,7 @@ import numpy as np
 import scipy.linalg
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-reduce")
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-exchange")
@@ -40,8 +41,8 @@ def takes_matrices():
 
 
 def eigenvalues(path):
-    """Free-free eigenvalues of a superelement file [rad^2/s^2], how much errors of 5e-11 of each entry of the matrices, the least of 11
-    digits, may change them, and the mass."""
+    """Returns the free eigenvalues of a superelement file [rad^2/s^2], their bound of errors from 5e-11 of each entry
+    of the matrices (11 digits), and the mass."""
     with h5py.File(path) as file:
         stiffness, mass = file["reduced/stiffness"][()], file["reduced/mass"][()]
         values, shapes = (part[..., 6:] for part in scipy.linalg.eigh(stiffness, mass))

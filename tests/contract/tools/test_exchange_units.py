@@ -1,4 +1,4 @@
-"""Units of sets of matrices, and the command bielle-exchange: formats, options, sentences."""
+"""Tests of units of sets of matrices, and of the command bielle-exchange: formats, options, messages."""
 
 import dataclasses
 import os
@@ -16,7 +16,7 @@ from bielle_tools.messages import InputError
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-exchange")
-# Steel and the dimensions of a beam in several systems: Young's modulus, density, length, width.
+# Young's modulus, density, length and width of a steel beam in several systems of units.
 LBF = 4.4482216152605
 BEAMS = {"m-kg-s": (210e9, 7800.0, 0.5, 0.02), "mm-t-s": (210e3, 7.8e-9, 500.0, 20.0), "mm-kg-ms": (210.0, 7.8e-6, 500.0, 20.0),
          "cm-g-s": (210e10, 7.8, 50.0, 2.0),
@@ -30,11 +30,11 @@ class Conversion(unittest.TestCase):
             for name, numbers in BEAMS.items():
                 with self.subTest(name, turned=turn is not None):
                     found = converted(beam(*numbers, turn), read_units(name, "--units"))
-                    time = 1e-3 if name.endswith("ms") else 1.0  # the damping is a thousandth of the stiffness times the unit of time
+                    time = 1e-3 if name.endswith("ms") else 1.0  # damping is 1e-3 stiffness times the unit of time
                     found.damping = found.damping / time
                     assert_same(self, found, expected, 1e-13)
                     self.assertEqual((found.length_unit, found.mass_unit), ("m", "kg"))
-                    if turn is None:  # each entry, whether of displacements or of rotations
+                    if turn is None:  # compares entries of displacements and of rotations
                         for matrix in MATRICES:
                             np.testing.assert_allclose(getattr(found, matrix).toarray(), getattr(expected, matrix).toarray(), rtol=1e-13)
 
@@ -154,7 +154,7 @@ class Command(InFolder):
                     self.assertRegex(said, f"left out: the {loss}|left out: the names of")
 
     def test_a_superelement(self):
-        """The program is replaced by one that writes its arguments, and copies the matrices that it gets."""
+        """The test replaces the program by one that writes its arguments and copies its matrices."""
         stand_in = self.write("bielle-reduce", '#!/bin/sh\necho "$1 $3 $4"; cp "$2" "$4" && exit ${BIELLE_TEST_STATUS:-0}\n')
         os.chmod(stand_in, 0o755)
         environment = {**os.environ, "BIELLE_BIN": self.folder}

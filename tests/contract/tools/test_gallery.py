@@ -1,5 +1,5 @@
-"""tools/gallery: machines pass their checks; a moved reference, a missing event, a wrong model and a crash are reported
-by name."""
+"""Tests of tools/gallery: machines pass their checks; a changed reference, a missing event, a wrong model and a crash
+are reported by name."""
 
 import glob
 import math
@@ -34,7 +34,7 @@ def gallery(*arguments):
 
 class Making(InFolder):
     def machine(self, name, *replaced, of="weak_instability"):
-        """Writes a machine file that is one of the gallery's with some words replaced."""
+        """Writes a machine file of the gallery in which some words are replaced."""
         with open(os.path.join(catalogue.FOLDER, of + ".py"), encoding="utf-8") as file:
             text = file.read()
         for old, new in replaced:
@@ -64,7 +64,8 @@ class Making(InFolder):
         self.assertIn("Failed: crashing, empty, moved, refused, without_figure.", text)
         with h5py.File(self.path("out/good/hht.h5")) as file:
             self.assertIn(f"Computed by {file.attrs['created_by']}.", text)
-        for link in re.findall(r"(?:href|src)='([^']+)'", text):  # all within the folder, and there
+        # All links are within the folder, and their files exist.
+        for link in re.findall(r"(?:href|src)='([^']+)'", text):
             self.assertTrue(link.startswith("#") or os.path.isfile(self.path("out/" + link)), link)
 
     def test_wrong_words_are_named(self):

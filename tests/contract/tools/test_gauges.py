@@ -1,28 +1,27 @@
-"""Virtual strain gauges: surfaces and strains in closed form, and a bar that is drawn, bent, twisted and turned."""
+"""Tests of virtual strain gauges: surfaces and strains in closed form, and a bar that is stretched, bent, twisted and
+rotated."""
 
 import contextlib
 import csv
 import io
 import os
-import shutil
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
 from box_mesh import REPOSITORY, InFolder, box
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
+from reduced_bar import ReducedBar
 
 from bielle_tools.bodies.gauges import ROSETTES, gauge_strains, principal_strains
 from bielle_tools.mesh.surface_point import nearest_on_surface
-from bielle_tools.messages import InputError  # box_mesh knows where
+from bielle_tools.messages import InputError  # box_mesh sets the path
 from bielle_tools.quantities.quantities import Quantities
 from bielle_tools.results import Results
 from bielle_tools.study.gather import read_gather
 from synthetic_results import VTK_TO_GMSH, put
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 SIZE = np.array([0.3, 0.2, 0.1])
 YOUNG, POISSON = 210e9, 0.3
 LENGTH, WIDTH = 1.0, 0.1
@@ -48,7 +47,7 @@ analysis: [{type: static, steps: 2}]
 
 
 def elasticity(young, poisson):
-    """(6,6) stress over engineering strain."""
+    """Returns stress over engineering strain (6,6)."""
     shear = young / (2 * (1 + poisson))
     C = np.zeros((6, 6))
     C[:3, :3] = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
@@ -65,7 +64,8 @@ class OfPlaneStrains(unittest.TestCase):
         np.testing.assert_allclose(gauge_strains(shear, ROSETTES["delta"]), np.array([0, np.sqrt(0.75), -np.sqrt(0.75)]) * 1e-4, atol=1e-19)
 
     def test_textbook_rosette_equations_give_the_principal_strains_of_the_readings(self):
-        """W. C. Young, R. G. Budynas, Roark's Formulas for Stress and Strain, table of rosettes."""
+        """The formulas are those of W. C. Young, R. G. Budynas, Roark's Formulas for Stress and Strain, table of
+        rosettes."""
         plane = np.random.default_rng(1).normal(size=(200, 3))
         largest, least, angle = principal_strains(plane).T
         a, b, c = gauge_strains(plane, ROSETTES["rectangular"]).T
@@ -85,7 +85,8 @@ class OfPlaneStrains(unittest.TestCase):
 
 class OfSurfaces(unittest.TestCase):
     def test_points_of_a_sphere_are_found_to_the_order_of_its_faces(self):
-        """A cube of quadrilaterals with nodes on the unit sphere. The error of faces of order k falls as h^(k+1)."""
+        """Returns a cube of quadrilaterals with nodes on the unit sphere. The error of faces of order k decreases as
+        h^(k+1)."""
         for order, ratio in ((1, 4), (2, 8)):
             errors = [self.error_on_sphere(order, count) for count in (4, 8)]
             self.assertGreater(errors[0] / errors[1], 0.9 * ratio, order)
@@ -117,7 +118,7 @@ class OfSurfaces(unittest.TestCase):
 
 
 class OfBoxes(InFolder):
-    """A box whose strain, in a frame that turns, is a given tensor times each coordinate, linear over the box."""
+    """A box whose strain, in a rotating frame, is a given tensor times each coordinate, linear over the box."""
 
     def setUp(self):
         super().setUp()
@@ -239,15 +240,13 @@ class OfBoxes(InFolder):
             self.assertIn(part, str(caught.exception))
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     def test_a_bar_drawn_bent_twisted_and_turned(self):
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), self.folder)
-        self.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=self.folder, check=True, capture_output=True, timeout=120)
+        self.reduce_bar(BODY)
         area, bending = WIDTH ** 2, YOUNG * WIDTH ** 4 / 12
         force, moment = 1e4, 1e3
         drawn, bent = f"force: [{force}, 0, 0]", f"moment: [0, {-moment}, 0]"
-        exact, bilinear = 1e-4, 5e-3  # cells of order 2 hold strains linear in place; under a force at the tip it is x z
+        exact, bilinear = 1e-4, 5e-3  # cells of order 2 represent linear strains, but a force at the tip causes x z
         for load, place, strain, error in ((drawn, "0.5 0 0.05", force / (YOUNG * area), exact),
                                            (bent, "'top, middle'", -moment * WIDTH / 2 / bending, exact),
                                            (bent, "0.5 0 -0.05", moment * WIDTH / 2 / bending, exact),
@@ -265,9 +264,8 @@ class OfABar(InFolder):
         np.testing.assert_allclose(self.rosette("force: [0, 0, 0]", "0.5 0 0.05", 1)[:5], 0, atol=1e-12)
 
     def rosette(self, load, place, angle):
-        """The last row."""
-        self.write("model.yaml", MODEL.replace("LOAD", load).replace("ANGLE", str(angle)))
-        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        """Returns the last row."""
+        self.run_bar(MODEL.replace("LOAD", load).replace("ANGLE", str(angle)))
         with Results(self.path("run.h5")) as results:
             return Quantities(results).read(f"bar.rosette({place}, 1 0 0, rectangular)").values[-1]
 

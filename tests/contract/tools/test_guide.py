@@ -1,4 +1,4 @@
-"""The pages about the tools: their commands are run, and print what the pages show."""
+"""Tests the pages about the tools: their commands are run, and must print what the pages show."""
 
 import glob
 import os
@@ -27,7 +27,7 @@ def guide():
 
 
 def run_lines(path):
-    """The commands of a page that are run."""
+    """Returns the commands of a page that are run."""
     return "\n".join(block.text for block in pages.blocks(path) if block.language == "sh" and not block.not_run)
 
 
@@ -38,13 +38,14 @@ class Guide(unittest.TestCase):
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "BIELLE_BIN": PROGRAMS, "OPENBLAS_NUM_THREADS": "1"}
             for path in share(guide()):
                 with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
-                    os.symlink(tools, os.path.join(folder, "tools"))  # commands of the repository are called from its root
+                    # Commands in the repository are called from its root.
+                    os.symlink(tools, os.path.join(folder, "tools"))
                     pages.run_page(path, folder, environment)
 
     def test_every_page_runs_commands_and_shows_output(self):
         self.assertGreaterEqual(len(guide()), 10)
         for path in guide():
-            if os.path.basename(path) == "manual.md":  # the site is built by test_manual_site
+            if os.path.basename(path) == "manual.md":  # test_manual_site builds the site
                 continue
             with self.subTest(os.path.relpath(path, ROOT)):
                 self.assertNotEqual(run_lines(path), "")

@@ -1,5 +1,5 @@
-"""tools/install: silent if everything is installed, installs missing packages, gives advice if it cannot. Stand-ins
-take the place of apt."""
+"""Tests of tools/install: it is silent if everything is installed, installs missing packages, and gives advice if it
+cannot. Stand-ins replace apt."""
 
 import os
 import stat
@@ -64,7 +64,7 @@ class Install(InFolder):
         self.assertEqual(len(self.commands()), 2)
 
     def test_without_sudo_says_what_root_must_run(self):
-        for sudo in ({}, {"sudo": "exit 1"}):  # no sudo, or one that would ask for a password
+        for sudo in ({}, {"sudo": "exit 1"}):  # no sudo, or a sudo that would ask for a password
             done = self.install(dpkg_query=ONE_MISSING, apt_get=LOGGED, id="echo 1000", **sudo)
             self.assertEqual(done.returncode, 1)
             self.assertIn("As root, run", done.stderr)

@@ -1,4 +1,4 @@
-"""Coarser triangles of surfaces: a sphere, a thin plate, a bar."""
+"""Tests of coarser triangles of surfaces: a sphere, a thin plate, a bar."""
 
 import unittest
 
@@ -6,12 +6,12 @@ import numpy as np
 
 import box_mesh
 
-from bielle_tools.mesh.cells import boundary_faces, solid_faces, triangles_of  # box_mesh knows where
+from bielle_tools.mesh.cells import boundary_faces, solid_faces, triangles_of  # box_mesh sets the path
 from bielle_tools.scene.levels import FEWEST, levels_of
 
 
 def surface(divisions, size):
-    """Points and outward triangles of a box of tetrahedra."""
+    """Returns points and outward triangles of a box of tetrahedra."""
     points, cells = box_mesh.box(divisions, size, 1)
     nodes, triangles = np.unique(triangles_of(boundary_faces(solid_faces({"tetra": cells}))), return_inverse=True)
     return points[nodes], triangles.reshape(-1, 3)
@@ -41,7 +41,8 @@ class Levels(unittest.TestCase):
         return points[order], levels
 
     def test_the_surface_of_a_bar_stays_where_it_is(self):
-        """Each point of the surface is within the diagonal of a cell of the coarse one's points, on the same side."""
+        """Asserts that each point of the surface is within the diagonal of a cell from a coarse point on the same
+        side."""
         points, levels = self.levels(*surface((40, 12, 12), (1.0, 0.3, 0.3)))
         self.assertGreater(len(levels), 3)
         for level in levels[1:]:
@@ -66,7 +67,7 @@ class Levels(unittest.TestCase):
             self.assertEqual(len(levels_of(points, triangles)[1]), 1)
         order, levels = levels_of(np.zeros((3, 3)), np.zeros((0, 3), int))
         self.assertEqual((order.tolist(), len(levels)), ([0, 1, 2], 1))
-        many = np.zeros((600, 3)), np.arange(600).reshape(-1, 3)  # without any size
+        many = np.zeros((600, 3)), np.arange(600).reshape(-1, 3)  # a body without extent
         self.assertEqual(len(levels_of(*many)[1]), 1)
 
 

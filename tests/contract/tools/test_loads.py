@@ -1,4 +1,5 @@
-"""tools/bielle-loads: the loads of a superelement balance, and CalculiX finds with them the deformation that Bielle has."""
+"""Tests of tools/bielle-loads: the loads of a superelement balance, and CalculiX computes the deformation of Bielle
+from them."""
 
 import os
 import shutil
@@ -10,7 +11,7 @@ import h5py
 import numpy as np
 
 from box_mesh import REPOSITORY
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
 
 from bielle_tools.bodies.loads import LoadedBody
 from bielle_tools.mesh import cell_integrals
@@ -35,7 +36,7 @@ damping: {ratio: 0.005}
 recovery: {displacement: all, stress: all}
 """
 
-# It is brought up to 40 rad/s about z while a force bends it upwards, with a weight at its end.
+# The bar is accelerated to 40 rad/s about z while a force bends it upwards; it has a weight at its end.
 MODEL = """
 gravity: [0, 0, -9.81]
 nodes: {root: {position: [0, 0, 0]}, tip: {position: [1, 0, 0]}}
@@ -50,7 +51,7 @@ analysis: [{type: dynamic, duration: 0.06, step: 1e-4}]
 
 
 def read_frd(path):
-    """[(name, {node: values})] of displacements and stresses, step by step."""
+    """Returns [(name, {node: values})] of displacements and stresses, step by step."""
     found, values = [], None
     with open(path, encoding="ascii") as file:
         for line in file:
@@ -97,7 +98,7 @@ class Loads(unittest.TestCase):
     def test_the_mass_matrix_of_the_mesh_is_that_of_the_superelement(self):
         loaded = self.loaded("bar")
         M = np.einsum("pka,pkb->ab", loaded.T, np.stack([loaded.mesh_mass @ loaded.T[:, :, k] for k in range(loaded.T.shape[2])], axis=2))
-        # Ties add rotary inertia except for rigid surfaces, which have no thickness.
+        # Ties add rotary inertia, except rigid ties of surfaces, which have no thickness.
         np.testing.assert_allclose(M, loaded.M, atol=1e-9 * np.abs(loaded.M).max())
         self.assertAlmostEqual(loaded.mesh_mass.sum(), DENSITY * LENGTH * WIDTH**2, places=8)
 
@@ -110,7 +111,7 @@ class Loads(unittest.TestCase):
             self.assertLess(np.linalg.norm(force), 1e-12 * size)
             self.assertLess(np.linalg.norm(moment), 1e-12 * size)
             self.assertLess(load.corrected, 1e-12)
-            # The written forces, one by one, those of the average tie distributed.
+            # These are the written forces, including the distributed ones of the average tie.
             spread = load.inertia.copy()
             for surface, at in zip(loaded.surfaces, load.interface):
                 if not surface.rigid:
@@ -120,7 +121,8 @@ class Loads(unittest.TestCase):
             np.testing.assert_allclose(np.cross(loaded.points - about, spread).sum(axis=0), -load.interface[0, 3:], atol=1e-11 * size)
 
     def test_the_motion_is_that_of_a_turning_bar(self):
-        # At 0.055 s it turns at 40 rad/s: the mass centre, half a metre out, has 800 m/s^2 inwards; bending moves it little.
+        # At 0.055 s the bar rotates at 40 rad/s. The mass centre at a radius of half a metre has an acceleration of 800
+        # m/s^2 inwards; bending hardly moves it.
         load = self.loaded("bar").at(550)
         self.assertAlmostEqual(load.angular_velocity[2], 40, delta=0.2)
         self.assertAlmostEqual(load.acceleration[0], -800, delta=8)
@@ -157,10 +159,10 @@ class Loads(unittest.TestCase):
                 q = loaded.at(row).q
                 ours = without_rigid((loaded.T @ q).ravel())
                 theirs = without_rigid(np.array([u[k + 1] for k in range(len(loaded.points))]).ravel())
-                # Tolerance for the part that modes lack: of the axial answer to the speed, 4 % of a small part.
+                # The tolerance covers the part that the modes lack, 4 % of the small axial response to the speed.
                 self.assertLess(np.abs(theirs - ours).max(), 5e-3 * np.abs(ours).max(), (name, row))
-                # Both programs average the stresses of elements at a node, each in its way: they differ by a few per
-                # cent at stress concentrations.
+                # Both programs average the stresses of elements at a node in different ways, which causes differences
+                # of a few per cent at stress concentrations.
                 s = (loaded.body.stress @ q).reshape(-1, 6)[:, [0, 1, 2, 5, 3, 4]]
                 t = np.array([stress[k + 1] for k in loaded.body.stressed])
                 self.assertLess(np.linalg.norm((t - s)[inside]), 0.02 * np.linalg.norm(s[inside]), (name, row))

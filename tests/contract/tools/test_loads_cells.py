@@ -1,4 +1,5 @@
-"""tools/bielle-loads on meshes of hexahedra, wedges and mixtures: consistent nodal forces, balance, and decks that are read back."""
+"""Tests of tools/bielle-loads on meshes of hexahedra, wedges and mixtures: consistent nodal forces, balance, and decks
+that are read back."""
 
 import itertools
 import os
@@ -23,7 +24,8 @@ from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-loads")
-# Shares of the nodes in a constant pressure: corners, edges, middle. (Integrals of the shape functions over the face.)
+# Shares of the nodes in a constant pressure, which are integrals of the shape functions over the face: corners, edges,
+# middle.
 SHARES = {"triangle": (1 / 3,), "triangle6": (0, 1 / 3), "quad": (1 / 4,), "quad8": (-1 / 12, 1 / 3), "quad9": (1 / 36, 1 / 9, 4 / 9)}
 BODY = """
 body: bar
@@ -56,7 +58,8 @@ def shares(kind):
 
 class ConsistentForces(unittest.TestCase):
     def test_a_constant_pressure(self):
-        """On a parallelogram or a triangle in space each node has its share; forces and moments are those of the pressure."""
+        """Each node of a parallelogram or a triangle in space has its share; forces and moments are those of the
+        pressure."""
         a, b, origin = np.array([0.3, 0.1, -0.2]), np.array([-0.1, 0.4, 0.05]), np.array([1.0, 2.0, 3.0])
         for kind in SHARES:
             x = (CELLS[kind].reference + 1) / 2 if CELLS[kind].shape == "quad" else CELLS[kind].reference
@@ -113,7 +116,7 @@ class MeshesOfOtherCells(WithQuickTools):
                 self.assertLess(load.corrected, 1e-11)
 
     def test_a_force_on_an_average_tie_is_a_constant_pressure(self):
-        """Rectangles of the end: each of their nodes has its share of the rectangle's part of the force."""
+        """Each node of a rectangle at the end has its share of the force on this rectangle."""
         for name, loaded in self.each():
             surface = loaded.surfaces[0]
             kind = "quad" if name.endswith("1") else "quad8"
@@ -160,7 +163,7 @@ class MeshesOfOtherCells(WithQuickTools):
 
 
 class TiesOfDecks(WithQuickTools):
-    """Interfaces with `from`: the forces are spread as the deck ties its nodes."""
+    """Tests interfaces with `from`, whose forces are distributed by the tie of the deck."""
 
     @classmethod
     def setUpClass(cls):
@@ -206,7 +209,8 @@ class TiesOfDecks(WithQuickTools):
         self.assertEqual(len(rigid.nodes), len(self.left))
         places = {tuple(np.round(1000 * loaded.points[k], 6)) for k in average.nodes}
         self.assertEqual(places, {tuple(np.round(self.box.points[k], 6)) for k in self.right})
-        # C u = q: the transpose of the spread gives the motion of the interface for each shape, that of a mode is zero.
+        # By C u = q, the transpose of the distribution gives the motion of the interface for each shape, which is zero
+        # for a mode.
         motion = np.einsum("akf,akn->fn", average.spread, loaded.T[average.nodes])
         expected = np.zeros_like(motion)
         expected[:, 6:12] = np.eye(6)

@@ -1,4 +1,5 @@
-"""The manual: its pages are run and print what they show, its fragments are valid, its links lead somewhere."""
+"""Tests the manual: its pages are run and print what they show, its fragments are valid, and the targets of its links
+exist."""
 
 import glob
 import json
@@ -33,7 +34,7 @@ LONG = {  # theory and derivations, measurements, tables that tools/keys writes,
 
 
 def pages_of_repository():
-    """All pages but those of theory and those that are long for a reason."""
+    """Returns all pages except those of theory, and those that are long for a reason."""
     found = []
     for folder, folders, files in os.walk(ROOT):
         folders[:] = sorted(name for name in folders if name not in ("build", "theory") and not name.startswith("."))
@@ -63,7 +64,7 @@ class Manual(unittest.TestCase):
         prepare_figures()
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
-            for path in started:  # later ones use files of earlier ones
+            for path in started:  # later examples use files of earlier ones
                 pages.run_page(path, self.folder, environment)
 
     def test_pages_are_run_in_one_folder(self):

@@ -1,4 +1,4 @@
-"""Pictures of the manual: pages choose them by themselves, they show something, and they are made once."""
+"""Tests of the pictures of the manual: pages select them, they are not empty, and they are drawn once."""
 
 import os
 import re
@@ -65,7 +65,7 @@ class Pages(InFolder):
         return self.path(name)
 
     def gathered(self, *names, **options):
-        """Draws pages of the folder. @returns Gathered, and puts the reported sentences into `said`"""
+        """Draws pages of the folder, and stores the reported sentences in `said`. @returns Gathered"""
         environment = {**pages.environment_of(REPOSITORY, PROGRAMS, gathering.TOOLS), "OPENBLAS_NUM_THREADS": "1"}
         self.said = []
         return gather(REPOSITORY, {name: self.path(name) for name in names}, PROGRAMS, environment, self.path("kept"), 2, self.said.append)
@@ -207,7 +207,7 @@ class Site(Pages):
         self.assertTrue(page_of(REPOSITORY, "no_title.yaml", "nodes: {}\n").startswith("# No title\n"))
 
     def shown(self):
-        """{page: [(page whose picture it shows, line)]} of the site; pages with models: {page: path}"""
+        """Returns {page: [(page whose picture it shows, line)]} of the site. `pages` with models are {page: path}"""
         os.makedirs(self.path("pages"), exist_ok=True)
         every = {page: os.path.join(REPOSITORY, page) for part in site.pages_of(REPOSITORY).values() for page in part}
         every.update(write_pages(REPOSITORY, self.path("pages")))

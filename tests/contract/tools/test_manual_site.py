@@ -1,4 +1,5 @@
-"""The site of the manual is built by Sphinx without a warning, in a minute. test_manual checks the links of its sources."""
+"""Tests that Sphinx builds the site of the manual without a warning, in a minute. test_manual checks the links of its
+sources."""
 
 import importlib.util
 import os

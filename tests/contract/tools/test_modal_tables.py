@@ -1,4 +1,4 @@
-"""bielle-table --modes and --response: their numbers are those of the results file and of closed forms."""
+"""Tests of bielle-table --modes and --response: their numbers are those of the results file and of closed forms."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ import numpy as np
 
 import synthetic_modes
 from box_mesh import REPOSITORY, InFolder
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-table")
@@ -44,7 +44,7 @@ class ModalTables(InFolder):
         return run_python_tool(TOOL, arguments, self.folder)
 
     def table(self, *arguments):
-        """[{head: cell}] of a table that the tool writes as CSV."""
+        """Returns [{head: cell}] of a table that the tool writes as CSV."""
         done = self.run_tool(*arguments, "--csv", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
         return list(csv.DictReader(io.StringIO(done.stdout)))
@@ -70,7 +70,7 @@ class ModalTables(InFolder):
         for head, name in (("frequency [Hz]", "frequency"), ("damped frequency [Hz]", "damped_frequency"), ("damping ratio", "damping_ratio"), ("whirl", "whirl")):
             np.testing.assert_array_equal([float(line[head] or "nan") for line in table], stored[name].ravel(), name)
         self.assertTrue(any(line["whirl"] == "" for line in table), "a motion along the axis has no sense")
-        for line in table:  # the disc tilts: A w^2 -+ C speed w - k = 0
+        for line in table:  # a tilting disc has A w^2 -+ C speed w - k = 0
             if line["name"].startswith("disc tilting"):
                 speed, sense = float(line["speed [rad/s]"]), 1 if "forward" in line["name"] else -1
                 w = (sense * 0.18 * speed + math.sqrt((0.18 * speed) ** 2 + 4 * 0.1 * 1000)) / (2 * 0.1)

@@ -1,4 +1,4 @@
-"""Modes drawn: the tools on shapes in closed form, and on those of the programs, bodies included."""
+"""Tests of the tools that draw modes, with shapes in closed form and with those of the programs, including bodies."""
 
 import os
 import subprocess
@@ -12,17 +12,17 @@ import numpy as np
 from PIL import Image
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh sets the path
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
 from bielle_tools.bodies.superelement_body import superelement_of  # noqa: E402
 from bielle_tools.results import Results  # noqa: E402
-from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
+from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh sets the path)
 from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-# The body's x axis along y of the mechanism; both ends are rigid, so that their surfaces move as their nodes do.
+# The body's x axis is along y of the mechanism. Both ends are rigid, so that their surfaces move with their nodes.
 BODY = """\
 body: bar
 geometry: %s/meshes/bar.geo

@@ -1,4 +1,5 @@
-"""Rotations of nodes as the tools make them of recorded quaternions: over turns, through singularities, in figures and studies."""
+"""Tests of rotations of nodes that the tools compute from recorded quaternions: over several turns, through
+singularities, in figures and studies."""
 
 import csv
 import math
@@ -24,12 +25,12 @@ AXES = {"euler": "ZXZ", "bryant": "XYZ"}
 
 
 def quaternions(turns):
-    """(n, 4) w x y z of SciPy's rotations, of signs that are not continued."""
+    """Returns w x y z (n, 4) of SciPy's rotations, whose signs are not continuous."""
     return np.roll(turns.as_quat(), 1, axis=-1)
 
 
 def tumbling(rows):
-    """A body that turns fast about an axis which turns slowly."""
+    """Returns a body that rotates fast about an axis which rotates slowly."""
     t = np.linspace(0, 10, rows)
     zero = np.zeros(rows)
     return (Rotation.from_rotvec(np.column_stack([0.3 * t, 2 * np.sin(t), zero]))
@@ -54,7 +55,8 @@ class Quantities(unittest.TestCase):
         psi = rotations.rotation_quantity("rotation_vector", quaternions(Rotation.from_rotvec(angle[:, None] * axis)))
         np.testing.assert_allclose(psi, angle[:, None] * axis, atol=1e-13)
         for name, axes in AXES.items():
-            angles = np.column_stack([0.4 + 0.3 * t, 0.2 + 40 * t, -0.3 + 0.5 * t * t])  # b through both singularities
+            # Angle b passes through both singularities.
+            angles = np.column_stack([0.4 + 0.3 * t, 0.2 + 40 * t, -0.3 + 0.5 * t * t])
             found = rotations.rotation_quantity(name, quaternions(Rotation.from_euler(axes, angles)))
             np.testing.assert_allclose(found, angles, atol=1e-11)  # next to the singularity 1e-16/cos b
 

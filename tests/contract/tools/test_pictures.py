@@ -1,4 +1,4 @@
-"""Pictures of bielle-animate: places and colours of pixels that follow from the motion in closed form."""
+"""Tests of pictures of bielle-animate: places and colours of pixels follow from the motion in closed form."""
 
 import contextlib
 import json
@@ -20,7 +20,7 @@ import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
 from python_tool import import_tools, run_python_tool
 
-from bielle_tools.messages import InputError  # noqa: E402  (box_mesh knows where)
+from bielle_tools.messages import InputError  # noqa: E402  (box_mesh sets the path)
 from bielle_tools.pictures import frames  # noqa: E402
 from bielle_tools.pictures.camera import MARGIN  # noqa: E402
 from bielle_tools.pictures.display import virtual_display  # noqa: E402
@@ -32,7 +32,7 @@ from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")
 RED, BLUE = "#ff0000", "#0000ff"
-SIDE, TRAVEL = 0.2, 1.0  # the side of the red box, and its way along x [m]
+SIDE, TRAVEL = 0.2, 1.0  # side of the red box, and its travel along x [m]
 
 
 class Pictures(InFolder):
@@ -42,12 +42,13 @@ class Pictures(InFolder):
         import_tools("pictures", "results", "bodies")
         with unittest.mock.patch.dict(os.environ):
             server = contextlib.ExitStack()
-            server.enter_context(virtual_display())  # a start of an X server takes longer than most drawings
+            # All tests use one server, whose start takes longer than most drawings.
+            server.enter_context(virtual_display())
             cls.display = os.environ["DISPLAY"]
         cls.addClassCleanup(server.close)
 
     def boxes(self, size=1.0, origin=(0, 0, 0), rows=5, name="boxes"):
-        """A red box that goes along x, and a blue one that rests below its start. @returns path of the results"""
+        """Writes a red box that moves along x, and a blue one at rest below its start. @returns path of the results"""
         x = np.outer(np.linspace(0, TRAVEL, rows), [1, 0, 0]) * size + origin
         nodes = {"slider": (x, drawn_results.resting(rows)[1]), "stone": drawn_results.resting(rows, origin)}
         items = [{"entry": "elements/red", "type": "rigid_body", "shape": "box", "node": "slider", "size": [SIDE * size] * 3, "colour": RED},
@@ -60,12 +61,12 @@ class Pictures(InFolder):
             return Shot(results, Look(**look), pictures)
 
     def drawings(self, shot, processes=1):
-        """(rows,height,width,3) of the drawings alone, without the strips of texts."""
+        """Returns the drawings (rows,height,width,3) without the strips of texts."""
         top, height = shot.paper.line, shot.camera.size[1]
         return np.array([np.asarray(each)[top:top + height] for each in self.pictures(shot, processes)]).astype(int)
 
     def pictures(self, shot, processes=1):
-        """Draws on the display of the class."""
+        """Base class whose tests draw on one display."""
         with (unittest.mock.patch.object(frames, "virtual_display", contextlib.nullcontext),
               unittest.mock.patch.dict(os.environ, DISPLAY=self.display)):
             yield from frames.drawn(shot, processes=processes)
@@ -97,20 +98,21 @@ def inked(image):
 
 
 def bounds(mask):
-    """First column, column after the last, first row, row after the last."""
+    """Returns the first column, the column after the last, the first row, and the row after the last."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     return np.array([columns[0], columns[-1] + 1, rows[0], rows[-1] + 1])
 
 
 class Places(Pictures):
     def test_a_box_is_where_its_motion_says(self):
-        """Along z the motion is SIDE + TRAVEL wide: with the margins on both sides this is the width of the picture."""
+        """Seen along z, the motion has the width SIDE + TRAVEL, which fills the picture together with the margins on
+        both sides."""
         shot = self.shot(self.boxes(), view="z", size=(600, 400))
         width = 600
         scale = (1 - 2 * MARGIN) * width / (SIDE + TRAVEL)
         for k, image in enumerate(self.drawings(shot)):
             left = MARGIN * width + TRAVEL * k / 4 * scale
-            middle = shot.camera.size[1] / 2  # both boxes together are 0.6 m high, the red one above
+            middle = shot.camera.size[1] / 2  # both boxes together are 0.6 m high, with the red one above
             expected = [left, left + SIDE * scale, middle - 0.3 * scale, middle - 0.1 * scale]
             np.testing.assert_allclose(bounds(reddish(image)), expected, atol=1.5)
             self.assertTrue((image[0, 0] == 255).all())
@@ -197,7 +199,7 @@ class Stresses(Pictures):
         synthetic.write_results(self.path("run.h5"), "box.h5")
 
     def test_the_largest_stress_is_the_dark_end(self):
-        """The box is stretched by STRAIN at most, at a quarter of the time; half of its faces keep the stress."""
+        """The largest strain is STRAIN at a quarter of the time; half of the faces keep the stress."""
         shot = self.shot(self.path("run.h5"), 41, size=(400, 300))
         largest = synthetic.YOUNG * synthetic.STRAIN
         self.assertAlmostEqual(shot.highest / largest, 1, delta=1e-6)
@@ -225,7 +227,8 @@ class Stresses(Pictures):
         self.assertLess(np.ptp(grey.astype(int)), 30)
 
     def test_the_scale_falls_in_lightness_throughout(self):
-        """CIE 1976 L* of sRGB colours (IEC 61966-2-1): stresses are ordered without colours as well, in steps of similar size."""
+        """The lightness is CIE 1976 L* of sRGB colours (IEC 61966-2-1). It orders stresses without colours as well, in
+        similar steps."""
         share = stress_colours(np.linspace(0, 1, 9)) / 255
         linear = np.where(share > 0.04045, ((share + 0.055) / 1.055) ** 2.4, share / 12.92)
         luminance = linear @ [0.2126, 0.7152, 0.0722]
@@ -357,10 +360,10 @@ class Files(Pictures):
 
 
 class Surroundings(Pictures):
-    """Programs that are missing, and processes that remain."""
+    """Tests of missing programs, and of processes that could remain."""
 
     def environment(self, programs):
-        """An environment in which only these programs are found."""
+        """Returns an environment in which only these programs are found."""
         os.mkdir(self.path("bin"))
         for program in programs:
             os.symlink(shutil.which(program), self.path(f"bin/{program}"))
@@ -378,7 +381,7 @@ class Surroundings(Pictures):
         self.succeed("boxes.h5", "-o", "run.png", environment=self.environment(["Xvfb"]))
 
     def marked(self, mark):
-        """Numbers of processes whose environment has the mark, and their names."""
+        """Returns numbers and names of the processes whose environment contains the mark."""
         found = {}
         for number in filter(str.isdigit, os.listdir("/proc")):
             try:
@@ -399,7 +402,7 @@ class Surroundings(Pictures):
         return False
 
     def test_no_process_remains(self):
-        """Neither after the end nor when those that wait for others are killed."""
+        """No process remains after the end, or after a kill of those that wait for others."""
         self.boxes(rows=2000)
         mark = "BIELLE_TEST_MARK=" + self.folder
         command = [TOOL, "boxes.h5", "-o", "run.gif", "--frames", "8", "--size", "100x100"]
@@ -409,7 +412,7 @@ class Surroundings(Pictures):
         command[5] = "2000"
         with subprocess.Popen(command, cwd=self.folder, env=environment, stdout=subprocess.DEVNULL) as running:
             processors = len(os.sched_getaffinity(0))
-            own = 2 + (processors if processors > 1 else 0)  # the one that waits, the one that works, those that draw
+            own = 2 + (processors if processors > 1 else 0)  # the waiting process, the working one, and those that draw
             self.assertTrue(self.wait_for(lambda: list(self.marked(mark).values()).count("bielle-animate") >= own), self.marked(mark))
             self.assertIn("Xvfb", self.marked(mark).values())
             for number in sorted(self.marked(mark))[:2]:

@@ -1,4 +1,5 @@
-"""Names and components of quantities: against the datasets of files, in both layouts, with names that hold dots, slashes and commas."""
+"""Compares names and components of quantities with the datasets of files, in both layouts, with names that contain
+dots, slashes and commas."""
 
 import contextlib
 import io
@@ -12,12 +13,12 @@ import numpy as np
 import synthetic_results as synthetic
 from box_mesh import InFolder
 
-from bielle_tools.messages import InputError  # box_mesh knows where
+from bielle_tools.messages import InputError  # box_mesh sets the path
 from bielle_tools.quantities.quantities import Quantities, arguments_of, split_names
 from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-# The arm is a part; its names hold a dot. Others hold slashes, commas, spaces and the words of components.
+# The arm is a part, whose names contain a dot. Others contain slashes, commas, spaces and words of components.
 MODEL = """\
 gravity: [0, 0, -9.81]
 nodes:
@@ -95,7 +96,8 @@ class OfSynthetic(InFolder):
         with h5py.File(self.path("run.h5"), "r+") as file:
             synthetic.put(file, "elements/shaft/stress", stress, "Pa")
             synthetic.put(file, "elements/shaft/strain", stress.reshape(len(self.time), 4, 6), "1, 1/m")
-            file["elements/shaft/von_mises"].attrs["description"] = "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"  # two words for two points
+            # The description has one word for each of two points.
+            file["elements/shaft/von_mises"].attrs["description"] = "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"
         self.expect("shaft.stress[3].p2.xz", stress[:, 2, 1, 2], "Pa")
         self.expect("shaft.stress.p1.xy", stress[:, :, 0, 1], "Pa")
         self.expect("shaft.stress[4,2].xx", stress[:, 3, 1, 0], "Pa")
@@ -236,7 +238,7 @@ class OfRuns(InFolder):
             self.assertEqual(sorted(results.names("nodes")), ["left", "left/arm", "left/arm/tip", "plain", "right/arm"])
             self.assertEqual(results.names("elements"), ["left/arm"])
             self.assertEqual(results.names("joints"), [])
-        with h5py.File(self.path("run.h5"), "r+") as file:  # damage that leads back
+        with h5py.File(self.path("run.h5"), "r+") as file:  # damage by a circular reference
             nodes = file["analysis_1/nodes"]
             nodes["left/again"] = nodes["left"]
             nodes["plain/above"] = nodes

@@ -1,4 +1,5 @@
-"""bielle-plot --quantity: curves, spectra, densities, orders and envelopes of signals known in closed form; studies and gaps."""
+"""Tests of bielle-plot --quantity: curves, spectra, densities, orders and envelopes of signals known in closed form,
+studies and gaps."""
 
 import csv
 import os
@@ -10,7 +11,7 @@ import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tool)
 import numpy as np
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh sets the path
 from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools.messages import InputError
@@ -22,7 +23,7 @@ TOOL = os.path.join(REPOSITORY, "tools", "bielle-plot")
 
 
 def write_signals(path, time, kind="", **signals):
-    """A results file with measures over time; kind: type of its analysis."""
+    """Writes a results file with measures over time. `kind` is the type of its analysis."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": "bielle results", "version": 1, "complete": True})
         group = file.create_group("analysis_1")
@@ -36,7 +37,7 @@ def write_signals(path, time, kind="", **signals):
 
 
 def table(path):
-    """{header: numbers} of a CSV file; empty cells are left out."""
+    """Returns {header: numbers} of a CSV file, without empty cells."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     return {head: np.array([float(row[k]) for row in rows[1:] if row[k] != ""]) for k, head in enumerate(rows[0])}
@@ -48,7 +49,7 @@ class Spectra(unittest.TestCase):
     def test_a_sine_shows_its_amplitude_wherever_it_is_between_the_lines(self):
         for frequency in (10.0, 10.1, 10.25, 10.37, 99.9):
             found = spectra.amplitude_spectrum(self.TIME, 3 + 2 * np.sin(2 * np.pi * frequency * self.TIME + 1), "s")
-            self.assertAlmostEqual(found.values.max(), 2, delta=2e-3)  # scalloping of the flat-top window: 0.01 dB
+            self.assertAlmostEqual(found.values.max(), 2, delta=2e-3)  # scalloping of the flat-top window is 0.01 dB
             self.assertAlmostEqual(found.x[found.values.argmax()], frequency, delta=found.resolution / 2)
             self.assertEqual(found.remarks, [])
 
@@ -66,13 +67,16 @@ class Spectra(unittest.TestCase):
 
     def test_the_integral_of_the_density_is_the_variance(self):
         time = np.arange(8192) * 1e-3
-        sine = 5 + 2 * np.sin(2 * np.pi * 31.25 * time)  # 32 periods in each piece: the sum over the lines is exact
+        # Each piece has 32 periods, so that the sum over the lines is exact.
+        sine = 5 + 2 * np.sin(2 * np.pi * 31.25 * time)
         found = spectra.power_density(time, sine, "s")
         self.assertAlmostEqual(found.values.sum() * found.x[1], 2, delta=1e-12)
-        noise = np.random.default_rng(1).normal(size=200000)  # 1600 lines x 16 pieces: 1 % is about three standard deviations of the sum
+        # 1 % is about three standard deviations of the sum over 1600 lines and 16 pieces.
+        noise = np.random.default_rng(1).normal(size=200000)
         found = spectra.power_density(np.arange(len(noise)) * 0.01, noise, "n")
         self.assertAlmostEqual(found.values.sum() * found.x[1] / noise.var(), 1, delta=0.015)
-        np.testing.assert_allclose(found.values[10:-10].mean(), 2 * 0.01, rtol=0.02)  # white: variance over half the sampling rate
+        # White noise has its variance over half the sampling rate.
+        np.testing.assert_allclose(found.values[10:-10].mean(), 2 * 0.01, rtol=0.02)
 
     def test_orders_are_sharp_while_the_speed_rises(self):
         time = np.linspace(0, 10, 40001)
@@ -86,10 +90,10 @@ class Spectra(unittest.TestCase):
             self.assertLess(found.speed[-1], speed[-1])
 
     def test_what_is_above_the_orders_at_a_low_speed_does_not_come_back_as_lower_ones(self):
-        time = np.linspace(0, 10, 40001)  # 160 rows per revolution where it is fastest: orders up to 80
+        time = np.linspace(0, 10, 40001)  # 160 rows per revolution at the highest speed give orders up to 80
         found = spectra.order_analysis(time, np.sin(2 * np.pi * 1500 * time), 2 * np.pi * (5 + 2 * time), "o")
         self.assertEqual(found.order[-1], 80)
-        slow = found.speed < 2 * np.pi * 15  # 1500 Hz is above order 100 there
+        slow = found.speed < 2 * np.pi * 15  # 1500 Hz is above order 100 at this speed
         self.assertGreater(slow.sum(), 3)
         self.assertLess(found.amplitude[slow].max(), 0.02)
         tone = np.abs(found.order[None] * found.speed[:, None] / 2 / np.pi - 1500) < 150

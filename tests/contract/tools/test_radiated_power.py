@@ -1,21 +1,18 @@
-"""Equivalent radiated power and deflections of superelements: rigid motions, breathing and bending in closed form, and a real bar."""
-
-import os
-import shutil
-import subprocess
+"""Tests of equivalent radiated power and deflections of superelements: rigid motions, breathing and bending in closed
+form, and a bar."""
 
 import h5py
 import numpy as np
 
-from box_mesh import REPOSITORY, InFolder, box
+from box_mesh import InFolder, box
+from reduced_bar import ReducedBar
 
 from bielle_tools.bodies import radiated_power
-from bielle_tools.messages import InputError  # box_mesh knows where
+from bielle_tools.messages import InputError  # box_mesh sets the path
 from bielle_tools.quantities.quantities import Quantities
 from bielle_tools.results import Results
 from synthetic_results import VTK_TO_GMSH, put
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 SIZE = np.array([0.3, 0.2, 0.1])
 Z = 1.204 * 343.2  # [N s/m^3] air at 20 degrees
 BODY = """
@@ -39,10 +36,10 @@ analysis: [{type: static, steps: 2}]
 
 
 class OfBoxes(InFolder):
-    """A box with given shapes, whose frame and coordinates move as given."""
+    """A box with given shapes, and with given motions of its frame and coordinates."""
 
     def write_body(self, shapes):
-        """shapes: (p,3) -> (p,3,n) displacement per coordinate"""
+        """`shapes` maps (p,3) to displacements per coordinate (p,3,n)"""
         points, cells = box((3, 2, 2), tuple(SIZE))
         T = shapes(points)
         with h5py.File(self.path("box.h5"), "w") as file:
@@ -56,7 +53,7 @@ class OfBoxes(InFolder):
         return points
 
     def write_motion(self, time, q, origin=None, turn=None):
-        """origin (nt,3); turn (nt,4): quaternions"""
+        """`origin` is (nt,3); `turn` are quaternions (nt,4)"""
         still = np.zeros((len(time), 3))
         with h5py.File(self.path("run.h5"), "w") as file:
             file.attrs.update({"format": "bielle results", "version": 1, "complete": True})
@@ -100,14 +97,16 @@ class OfBoxes(InFolder):
         time, omega = np.linspace(0, 1, 1001), 40.0
         half = omega * time / 2
         turn = np.column_stack([np.cos(half), 0 * half, 0 * half, np.sin(half)])
-        a, b, c = SIZE  # about z through a corner: v_n is -omega y on the faces across x, omega x on those across y
+        # In a rotation about z through a corner, v_n is -omega y on the faces across x, and omega x on those across y.
+        a, b, c = SIZE
         expected = Z * omega ** 2 * c * (2 * b ** 3 / 3 + 2 * a ** 3 / 3)
         self.write_motion(time, np.zeros((len(time), 1)), turn=turn)
         power, = self.read("arm.radiated_power")
         np.testing.assert_allclose(power[20:-20], expected, rtol=1e-6)
-        self.write_motion(time, np.zeros((len(time), 1)), turn=np.where(turn[:, :1] < 0, -turn, turn))  # as results record it
+        # Results have quaternions with this sign.
+        self.write_motion(time, np.zeros((len(time), 1)), turn=np.where(turn[:, :1] < 0, -turn, turn))
         np.testing.assert_allclose(self.read("arm.radiated_power")[0][20:-20], expected, rtol=1e-6)
-        other = np.array([0.3, -0.5, 0.7, 0.2]) / np.linalg.norm([0.3, -0.5, 0.7, 0.2])  # the same, seen from elsewhere
+        other = np.array([0.3, -0.5, 0.7, 0.2]) / np.linalg.norm([0.3, -0.5, 0.7, 0.2])  # the same motion in other axes
         w, v = other[0], other[1:]
         moved = np.column_stack([w * turn[:, 0] - turn[:, 1:] @ v, w * turn[:, 1:] + turn[:, :1] * v + np.cross(v, turn[:, 1:])])
         self.write_motion(time, np.zeros((len(time), 1)), turn=moved, origin=np.tile([5.0, 6, 7], (len(time), 1)))
@@ -145,7 +144,7 @@ class OfBoxes(InFolder):
         R = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
         self.write_body(lambda points: (points @ R.T - points)[:, :, None])
         self.write_motion(np.arange(2.0), np.array([[0.0], [1.0]]))
-        found, = self.read("arm.deflection(0.15 0.2 0.1, 0 0 0, 0.3 0 0)")  # far from the chord
+        found, = self.read("arm.deflection(0.15 0.2 0.1, 0 0 0, 0.3 0 0)")  # a point far from the chord
         np.testing.assert_allclose(found, 0, atol=1e-12)
 
     def test_slips(self):
@@ -160,19 +159,18 @@ class OfBoxes(InFolder):
             self.assertIn(part, str(caught.exception))
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     def test_a_bar_bends_off_its_chord_as_beam_theory_says(self):
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), self.folder)
-        self.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=self.folder, check=True, capture_output=True, timeout=120)
+        self.reduce_bar(BODY)
         bending = 210e9 * 0.1 ** 4 / 12
-        # Shear gives a cantilever a straight line, which the chord takes off: w(L/2) - w(L)/2 = -F L^3/(16 EI), -M L^2/(8 EI).
+        # The deflection of a cantilever by shear is a straight line, which the chord removes: w(L/2) - w(L)/2 = -F
+        # L^3/(16 EI), -M L^2/(8 EI).
         for load, expected in (("force: [0, 0, 1000]", -1000 / (16 * bending)), ("moment: [0, -1000, 0]", -1000 / (8 * bending))):
-            self.write("model.yaml", MODEL.replace("LOAD", load))
-            subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+            self.run_bar(MODEL.replace("LOAD", load))
             with Results(self.path("run.h5")) as results:
                 found = Quantities(results).read("bar.deflection(middle, root, tip)").values
-            np.testing.assert_allclose(found[:, 2] / expected, [0.5, 1], rtol=2e-3)  # the mesh of one element is 0.08 % too stiff
+            # One element over the thickness is 0.08 % too stiff.
+            np.testing.assert_allclose(found[:, 2] / expected, [0.5, 1], rtol=2e-3)
             np.testing.assert_allclose(found[:, :2], 0, atol=1e-3 * abs(expected))
 
 

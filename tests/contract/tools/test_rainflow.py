@@ -1,4 +1,4 @@
-"""bielle-rainflow and its counting, on the example of the standard and on histories with known cycles."""
+"""Tests of bielle-rainflow and its counting with the example of the standard, and with histories of known cycles."""
 
 import os
 import sys
@@ -17,7 +17,7 @@ from bielle_tools.quantities.rainflow import count_cycles, in_bins, miner_damage
 
 
 class Counting(unittest.TestCase):
-    STANDARD = [-2, 1, -3, 5, -1, 3, -4, 4, -2]  # ASTM E1049-85, figure 6: points A to I
+    STANDARD = [-2, 1, -3, 5, -1, 3, -4, 4, -2]  # points A to I of figure 6 in ASTM E1049-85
 
     def test_the_example_of_the_standard(self):
         counts = {}
@@ -25,7 +25,7 @@ class Counting(unittest.TestCase):
             counts[size] = counts.get(size, 0) + number
         self.assertEqual(counts, {3: 0.5, 4: 1.5, 6: 0.5, 8: 1.0, 9: 0.5})  # the table of figure 6
         whole = [(size, mean) for size, mean, number in count_cycles(self.STANDARD) if number == 1]
-        self.assertEqual(whole, [(4, 1)])  # E to F, the one closed cycle
+        self.assertEqual(whole, [(4, 1)])  # E to F, the only closed cycle
 
     def test_points_between_reversals_and_repeated_ones_change_nothing(self):
         fine = np.interp(np.linspace(0, 8, 801), np.arange(9), self.STANDARD)
@@ -89,7 +89,8 @@ class Command(unittest.TestCase):
         rows = [tuple(map(float, line.split())) for line in done.stdout.splitlines()[2:-1]]
         self.assertEqual(sum(number for _, _, number in rows), 4)
         self.assertIn((4e6, 1e6, 1.0), rows)
-        total = 3 * 0.5 + 4 * 1.5 + 6 * 0.5 + 8 * 1 + 9 * 0.5  # slope 1: damage goes with the sum of the ranges
+        # With slope 1, damage is proportional to the sum of the ranges.
+        total = 3 * 0.5 + 4 * 1.5 + 6 * 0.5 + 8 * 1 + 9 * 0.5
         self.assertIn(f"Miner's damage {total / 400:.6g}", done.stdout)
 
     def test_slips_are_answered_with_what_there_is(self):

@@ -1,4 +1,5 @@
-"""The reference: each page has a whole example that runs and prints what the page shows, and each type has a page."""
+"""Tests the reference: each page has a complete example that runs and prints what the page shows, and each type has a
+page."""
 
 import glob
 import json
@@ -22,15 +23,15 @@ from bielle_tools.manual import pages  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
 from shares import share  # noqa: E402
 
-WITHOUT_EXAMPLE = {"messages.md"}  # a page about what any run may print
-# Pages and tables of keys of states, by the key that tells their type.
+WITHOUT_EXAMPLE = {"messages.md"}  # a page about messages of any run
+# Pages and tables of keys of states, by the key that selects their type.
 STATES = {"rate": ("states", "state_with_a__rate_"), "filter": ("filter", "filter"), "transfer_function": ("transfer_function", "transfer_function_2"),
           "state_space": ("state_space", "state_space_block"), "sampled": ("sampled", "sampled_state"), "delayed": ("delayed", "delay")}
-SECTIONS = {"element": "elements", "joint": "joints", "analysis": "analyses"}  # folders of the reference by things
+SECTIONS = {"element": "elements", "joint": "joints", "analysis": "analyses"}  # folders of the reference by subject
 
 
 def pages_with_examples():
-    """The pages about types, of models and of bodies; a README is the index of its folder."""
+    """Returns the pages about types of models and bodies; a README is the index of its folder."""
     found = glob.glob(os.path.join(REFERENCE, "*", "*.md")) + glob.glob(os.path.join(BODIES, "*.md"))
     return sorted(path for path in found if os.path.basename(path) not in {"README.md", *WITHOUT_EXAMPLE})
 
@@ -41,7 +42,7 @@ def read(path):
 
 
 def model_of(path):
-    """The text of the files that a page writes, which its commands run."""
+    """Returns the text of the files that a page writes, which its commands run."""
     return "\n".join(block.text for block in pages.blocks(path) if pages.FILE_NAME.match(block.text))
 
 
@@ -51,7 +52,7 @@ def schema_of_mechanisms():
 
 
 def lines_of(schema):
-    """The keys that tell the type of a line of a circuit, with the references to their keys."""
+    """Returns the keys that select the type of a line in a circuit, with the references to their keys."""
     return {key: value for key, value in schema["definitions"]["line"]["properties"].items() if "$ref" in value and key != "ports"}
 
 

@@ -1,4 +1,4 @@
-"""The tools show the same of a results file by names and of a stacked one."""
+"""Tests that the tools give the same results for a file by names and for a stacked one."""
 
 import os
 import sys
@@ -20,7 +20,7 @@ class Layouts(_ResultsTool):
         super().setUp()
         for name in ("named.h5", "stacked.h5"):
             synthetic.write_results(self.path(name), "box.h5", analysis="dynamic")
-            with h5py.File(self.path(name), "r+") as file:  # two alike, and one that moves otherwise
+            with h5py.File(self.path(name), "r+") as file:  # two equal ones, and one with another motion
                 nodes = file["analysis_1/nodes"]
                 for other, shift in (("rim", 0.1), ("axle", 0.2)):
                     nodes.copy("hub", other)

@@ -1,4 +1,4 @@
-"""bielle-paraview, bielle-plot, bielle-animate on results whose motion is known in closed form."""
+"""Tests of bielle-paraview, bielle-plot and bielle-animate with results whose motion is known in closed form."""
 
 import json
 import os
@@ -15,7 +15,7 @@ import numpy as np
 
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, prepare_figures, run_python_tool, users_style  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool, users_style  # box_mesh sets the path
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 
@@ -49,7 +49,7 @@ class ResultsTool(InFolder):
 
 class ParaView(ResultsTool):
     def parts(self, pvd):
-        """{part: [(time, mesh)]} of a .pvd file."""
+        """Returns {part: [(time, mesh)]} of a .pvd file."""
         parts = {}
         for entry in ElementTree.parse(pvd).getroot().iter("DataSet"):
             mesh = meshio.read(os.path.join(os.path.dirname(pvd), entry.get("file")))
@@ -113,7 +113,8 @@ class ParaView(ResultsTool):
         np.testing.assert_allclose(parts["joints"][0][1].point_data["drive_force"], [[0, 7]])
 
     def test_axes_of_sections_at_the_ends_of_beams(self):
-        """Inner nodes have the axes of the section, which are the inertial ones; those of the ends are turned by the drawing's turn."""
+        """Inner nodes have the axes of the section, which are the inertial ones; the drawing rotates those of the
+        ends."""
         half = np.sqrt(0.5)
         item = {"entry": "elements/shaft", "type": "beam", "shape": "beam", "element": "elements/shaft", "turn": [[half, half, 0, 0], [0, 1, 0, 0]]}
         with h5py.File(self.path("run.h5"), "r+") as file:
@@ -130,7 +131,8 @@ class ParaView(ResultsTool):
             local = (mesh.points - [synthetic.SPEED * time, 0, 0]) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
             np.testing.assert_allclose((((local - synthetic.CENTRE) / synthetic.SEMI_AXES) ** 2).sum(axis=1), 1, atol=1e-6)
             corners = mesh.points[mesh.cells_dict["triangle"]]
-            volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6  # outward: positive
+            # The volume is positive if triangles point outward.
+            volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
             self.assertAlmostEqual(volume / (4 / 3 * np.pi * synthetic.SEMI_AXES.prod()), 1, delta=0.15)  # volume of
                                                                                                           # its facets
 
@@ -139,14 +141,15 @@ class ParaView(ResultsTool):
         self.assertIn("load factor of a static analysis", self.succeed("bielle-paraview", self.path("static.h5")).stdout)
         self.assertNotIn("load factor", self.succeed("bielle-paraview", self.path("run.h5")).stdout)
         self.refuse("bielle-paraview", [self.path("static.h5"), "--from", "3"], "no load factor from 3")
-        with h5py.File(self.path("static.h5"), "r+") as file:  # the other figures would take four fifths of the time
+        # The other figures are removed, since they would take four fifths of the time.
+        with h5py.File(self.path("static.h5"), "r+") as file:
             for name in ("nodes", "joints", "elements", "solver"):
                 del file[name], file[f"analysis_1/{name}"]
         self.succeed("bielle-plot", self.path("static.h5"), "--format", "svg", "-o", self.path("plots"))
         self.assertEqual(self.labels("plots/energy.svg"), {"load factor", "energy [J]", "missing [J]"})
 
     def labels(self, picture):
-        """Texts of the axes of an SVG figure; matplotlib writes each as a comment before its outlines."""
+        """Returns the texts of the axes of an SVG figure. Matplotlib writes each as a comment before its outlines."""
         with open(self.path(picture), encoding="utf-8") as file:
             texts = set(re.findall(r"<!-- (.*?) -->", file.read()))
         return {text for text in texts if "[" in text or text in ("load factor",)}
@@ -311,7 +314,7 @@ class Refusals(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), *arguments], "run.h5", *parts)
 
     def refuse_to_read(self, *parts):
-        """Uses the tool that starts fastest: all open results in the same way."""
+        """The test uses the tool that starts fastest, since all open results in the same way."""
         self.refuse("bielle-rainflow", [self.path("run.h5"), *self.TOOLS["bielle-rainflow"]], "run.h5", *parts)
 
     def test_other_files_are_told_with_what_reads_them(self):

@@ -1,4 +1,4 @@
-"""The scene that is drawn of results: meshes, motion, paths of ropes, damaged drawings."""
+"""Tests of the scene that is drawn from results: meshes, motion, paths of ropes, damaged drawings."""
 
 import json
 import os
@@ -23,7 +23,7 @@ from drawn_results import every_shape, resting, stressed_beam, turning, write_re
 
 
 def volume(mesh):
-    """By the divergence theorem: positive if triangles point outward."""
+    """Returns the volume by the divergence theorem, which is positive if triangles point outward."""
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
     return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
 
@@ -91,7 +91,8 @@ class Scenes(unittest.TestCase):
             points = [{"node": "ground", "radius": R, "side": sides[0]}, {"node": "ground", "position": [d, 0, 0], "radius": r, "side": sides[1]}]
             scene = self.scene({"n": resting(3)}, [{"entry": "joints/belt", "type": "belt", "shape": "course", "closed": True, "points": points}])
             length = scene.poses(scene.parts[0], [0])[0, :, 7].sum()
-            self.assertAlmostEqual(length / expected, 1, delta=0.003)  # arcs of 14 chords: 1 - (angle/14)^2/24
+            # Arcs of 14 chords have a share of 1 - (angle/14)^2/24.
+            self.assertAlmostEqual(length / expected, 1, delta=0.003)
             self.assertLess(length, expected)
 
     def test_a_course_over_a_moving_pulley_is_continuous_in_space(self):
@@ -107,7 +108,8 @@ class Scenes(unittest.TestCase):
     def test_items_that_cannot_be_drawn_are_told(self):
         items = [{"entry": "a/lost", "shape": "box", "size": [1, 1, 1], "node": "absent"}, {"entry": "a/flat", "shape": "sphere", "radius": -1},
                  {"entry": "a/bare", "shape": "cylinder"}, {"shape": "box"}, 7, {"entry": "a/mesh", "shape": "mesh", "mesh": "gone"}]
-        items.append({"entry": "nodes/absent", "shape": "node", "node": "absent"})  # left out by `output: only`: it is not missed
+        # `output: only` omits it, which is no error.
+        items.append({"entry": "nodes/absent", "shape": "node", "node": "absent"})
         scene = self.scene({"n": resting(2)}, items)
         self.assertEqual(scene.parts, [])
         self.assertNotIn("nodes/absent", dict(scene.notes))
@@ -123,7 +125,7 @@ class Scenes(unittest.TestCase):
             item = {"entry": "nodes/n", "type": "node", "shape": "support", "role": "support", "node": "n", "fixed": fixed, **({"axes": axes} if axes else {})}
             scene = self.scene({"n": (np.zeros((20, 3)), turning(20, (0, 0, 1)))}, [item])
             self.assertEqual([part.group for part in scene.parts], ["ground"])
-            for row in (0, 13):  # the held axis stays in space
+            for row in (0, 13):  # the held axis is fixed in space
                 size = np.ptp(placed(scene.poses(scene.parts[0], [row])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points), axis=0)
                 self.assertEqual(np.argmin(size), thin)
                 self.assertLess(size[thin], 0.1 * size.max())
@@ -134,7 +136,7 @@ class Scenes(unittest.TestCase):
         self.assertIn("axes", dict(self.scene({"n": resting(2)}, [{**both, "axes": [0, 0, 0, 0]}]).notes)["nodes/n"])
 
     def test_the_ends_of_a_beam_have_the_axes_of_its_sections(self):
-        # The node at the start has other axes than the sections: it is turned by 90 degrees about y.
+        # The axes of the node at the start differ from those of the sections by 90 degrees about y.
         q = np.tile([1.0, 0, 0, 0], (4, 5, 1))
         q[:, 0] = [np.sqrt(0.5), 0, np.sqrt(0.5), 0]
         whole = turning(4, (0, 0, 1), 0.3)
@@ -148,12 +150,13 @@ class Scenes(unittest.TestCase):
         item = {"entry": "elements/b", "type": "beam", "shape": "beam", "element": "elements/b", "sections": [{"at": 0, "outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}]}
         scene = self.scene({"n": resting(4)}, [item], extra=beam)
         np.testing.assert_allclose(scene.poses(scene.parts[0], scene.rows)[:, :, 3:7], np.tile(whole[:, None], (1, 5, 1)), atol=1e-12)
-        self.assertAlmostEqual(volume(scene.parts[0].mesh), 0, 12)  # all stations at the origin of their bones
+        self.assertAlmostEqual(volume(scene.parts[0].mesh), 0, 12)  # all stations are at the origin of their bones
         points = placed(scene.poses(scene.parts[0], [2])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points)
         self.assertAlmostEqual(volume(type(scene.parts[0].mesh)(points, scene.parts[0].mesh.triangles, None, None)), 16, 9)
 
     def test_loads_have_arrows(self):
-        # A load at a point of a node that turns by 90 degrees; on a beam along x the resultant 4 N along y at x = 1.5, where the middle is 1.
+        # A load acts at a point of a node that rotates by 90 degrees. The resultant on a beam along x is 4 N along y at
+        # x = 1.5, while the middle is at 1.
         node = np.zeros((2, 3)), np.array([[1.0, 0, 0, 0], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)]])
         beam, records = stressed_beam()
 
@@ -183,7 +186,7 @@ class Scenes(unittest.TestCase):
 
     def test_symbols_do_not_cover_thin_beams(self):
         half, joint = 0.12, {"entry": "joints/j", "type": "hinge", "shape": "joint", "frames": [{"node": "ground"}, {"node": "n"}]}
-        item, records = stressed_beam()  # 2 m long, half as wide as 0.2 m
+        item, records = stressed_beam()  # 2 m long, with half the width of 0.2 m
         bar = {"entry": "elements/bar", "type": "rigid_body", "shape": "box", "node": "n", "size": [10, 0.1, 0.1]}
         self.assertAlmostEqual(self.scene({"n": resting(3)}, [bar, joint]).symbol, 0.02 * 10, delta=0.01)
         with_beam = self.scene({"n": resting(3)}, [bar, joint, item], extra=records).symbol

@@ -1,10 +1,10 @@
-"""Beams of scenes: their sections at nodes whose axes are not those of the section."""
+"""Tests of beams in scenes: sections at nodes whose axes differ from those of the section."""
 
 import unittest
 
 import numpy as np
 
-import box_mesh  # noqa: F401  (it knows where the tools are)
+import box_mesh  # noqa: F401  (sets the path of the tools)
 from bielle_tools.messages import InputError  # noqa: E402
 from bielle_tools.results.quaternions import conjugate, from_axes, product  # noqa: E402
 from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
@@ -14,7 +14,7 @@ ROWS = 4
 
 
 class Recorded:
-    """Results of one beam."""
+    """Returns results of one beam."""
 
     def __init__(self, position, rotation):
         self.values = {"elements/beam/position": position, "elements/beam/rotation": rotation}
@@ -30,21 +30,21 @@ class Recorded:
 
 
 def sections(position, rotation, turns=None):
-    """(rows,stations,3,3) axes of the sections as they are drawn"""
+    """Returns the drawn axes of the sections (rows,stations,3,3)."""
     poses, _ = beam_motion(Recorded(position, rotation), "elements/beam", turns)
     return rotation_matrices(poses(np.arange(len(position)))[:, :, 3:7])
 
 
 def about_z(angles):
-    """(...,4) quaternions of turns about z [rad]."""
+    """Returns quaternions (...,4) of rotations about z [rad]."""
     half = 0.5 * np.asarray(angles)
     return np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=-1)
 
 
 class Sections(unittest.TestCase):
     def arc(self, stations, angle, ends):
-        """A circular arc in the plane x y, whose end nodes have the axes `ends`, and which turns about z. Its section axes: along it,
-        towards the centre, z. @returns positions, recorded rotations, rotations of the section"""
+        """A circular arc in the plane x y rotates about z; its end nodes have the axes `ends`. The section axes are
+        along the arc, towards the centre, and z. @returns positions, recorded rotations, rotations of the section"""
         s = np.linspace(0, angle, stations)
         x = np.column_stack([np.cos(s), np.sin(s), 0 * s])
         tangent = np.column_stack([-np.sin(s), np.cos(s), 0 * s])
@@ -83,7 +83,8 @@ class Sections(unittest.TestCase):
         ends = np.array([[0.5, -0.5, 0.5, 0.5], [0.0, 0.6, 0.0, 0.8]])
         for stations in (2, 3, 5):
             x, recorded, section = self.arc(stations, 1.0, ends)
-            turns = turns_of({"entry": "elements/beam", "turn": (3 * product(conjugate(ends), section[0, [0, -1]])).tolist()})  # unit length is not needed
+            # Quaternions need not have unit length.
+            turns = turns_of({"entry": "elements/beam", "turn": (3 * product(conjugate(ends), section[0, [0, -1]])).tolist()})
             self.assertLess(np.abs(sections(x, recorded, turns) - rotation_matrices(section)).max(), 1e-12, stations)
 
     def test_damaged_turns_are_told(self):

@@ -1,4 +1,5 @@
-"""Entries of a scene that are drawn by what they do: released ones are absent, couplings have symbols, bodies have arms to what they carry."""
+"""Tests of entries of a scene: released ones are not drawn, couplings have symbols, and bodies have arms to the nodes
+that they carry."""
 
 import contextlib
 import os
@@ -59,11 +60,11 @@ class Entries(InFolder):
         return make_scene(results)
 
     def written(self, nodes, items, **options):
-        """The path of a new results file."""
+        """Returns the path of a new results file."""
         return write_results(self.path(f"run_{len(os.listdir(self.folder))}.h5"), nodes, items, **options)
 
     def shown(self, scene, entry):
-        """(rows) whether parts of the entry have poses that are numbers; all parts agree."""
+        """Returns for each row whether the parts of the entry have finite poses, which must be equal for all parts."""
         poses = [np.isfinite(scene.poses(part, scene.rows)).all(axis=(1, 2)) for part in scene.parts if part.entry == entry]
         self.assertTrue(poses, f"'{entry}' is not drawn")
         for each in poses[1:]:
@@ -93,7 +94,7 @@ class Released(Entries):
         self.assertEqual([first.notes, last.notes], [[], []])
 
     def test_an_analysis_knows_what_is_released_at_its_start(self):
-        """Without the events before it, as in the file of a session that goes on from another one."""
+        """Earlier events are missing, as in the file of a session that continues another one."""
         path = self.run_model()
         with h5py.File(path, "r+") as file:
             self.assertEqual(file["analysis_1"].attrs["released"].splitlines(), ["elements/spring", "joints/never"])
@@ -137,7 +138,7 @@ class Released(Entries):
 
 class Racks(Entries):
     def test_a_rack_lies_on_the_pitch_circle_of_its_pinion_and_slides(self):
-        """The pinion of 50 mm turns about z at (0.6, 0, 0), the rack slides along x on the side of y."""
+        """The pinion of 50 mm rotates about z at (0.6, 0, 0), and the rack slides along x on the side of y."""
         self.write("model.yaml", MODEL)
         done = subprocess.run([PROGRAM, "model.yaml", "--quiet"], cwd=self.folder, capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -161,7 +162,7 @@ class Racks(Entries):
 
 
 class Marks(Entries):
-    """A hinge, whose frames meet while it acts alone, has no gap after its release."""
+    """The frames of a hinge meet only while it is active, so that no gap is drawn after its release."""
     DROPPED = """mechanism: dropped
 gravity: [0, 0, -9.81]
 nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}}
@@ -205,7 +206,7 @@ analysis:
                     self.assertNotIn("joints/pivot", marks_of(scene, scene.rows[-1:]))
 
     def test_a_gap_counts_while_the_joint_acts(self):
-        """A hinge whose frames are 0.1, 0.2, 0.4, 0.3 m apart, at 0, 0.01, 0.02, 0.03 s."""
+        """Writes a hinge whose frames have the distances 0.1, 0.2, 0.4, 0.3 m at 0, 0.01, 0.02, 0.03 s."""
         frames = [{"node": "ground"}, {"node": "n"}]
         items = [{"entry": "joints/pin", "type": "hinge", "shape": "joint", "frames": frames},
                  {"entry": "elements/box", "type": "rigid_body", "shape": "box", "node": "n", "size": [1, 1, 1]}]
@@ -243,12 +244,13 @@ class Couplings(Entries):
         scene = self.coupled("joints: {pair: {type: gear, joints: [a, b.angle]}, rack: {type: rack_and_pinion, joints: [{joint: b}, c]}}")
         for entry, places in (("joints/pair", (0, 2)), ("joints/rack", (2, 4))):
             parts = [part for part in scene.parts if part.entry == entry]
-            self.assertEqual(len(parts), 3)  # two symbols and the line between them
+            self.assertEqual(len(parts), 3)  # two symbols, and the line between them
             for part, x in zip(parts, places):
                 poses = scene.poses(part, scene.rows)
                 np.testing.assert_allclose(poses[:, 0, :3], [[x, 0, 0]] * 5, atol=1e-12)
                 points = placed(poses[:, part.mesh.bones], part.mesh.points)
-                self.assertGreater(np.linalg.norm(points[4] - points[0], axis=1).max(), 0.3 * scene.symbol)  # it turns by 0.4 rad
+                # It rotates by 0.4 rad.
+                self.assertGreater(np.linalg.norm(points[4] - points[0], axis=1).max(), 0.3 * scene.symbol)
         levels = [part.mesh.points[:, 2].mean() for part in scene.parts if part.entry in ("joints/pair", "joints/rack") and abs(scene.poses(part, [0])[0, 0, 0] - 2) < 1e-9
                   and part.mesh.bone_count == 1 and part.mesh.points[:, 2].max() < 5 * scene.symbol]
         self.assertGreater(np.ptp(levels), 0.3 * scene.symbol, "two symbols on one joint do not coincide")
@@ -289,7 +291,8 @@ class Arms(Entries):
             self.assertEqual(len([part for part in scene.parts if part.entry == "nodes/n"]), 1 + arms)
 
     def test_frames_of_an_elastic_joint_do_not_shrink_symbols(self):
-        """Both frames of the bearing are 1e-4 of the machine apart: symbols follow from the distance of the joints."""
+        """The frames of the bearing have a distance of 1e-4 of the machine, so that the distance of the joints gives
+        the size of symbols."""
         items = [{"entry": f"joints/{name}", "type": "bearing", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 1e-4]}, {"node": "n", "position": [x, 0, 0]}]}
                  for name, x in (("left", 0), ("right", 1))]
         scene = self.scene(self.written({"n": resting(2)}, items))

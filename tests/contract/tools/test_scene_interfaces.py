@@ -1,5 +1,5 @@
-"""Superelements without a surface, such as those of matrices without cells: lines join their interfaces, and the reason
-is reported."""
+"""Tests of superelements without a surface, such as those of matrices without cells: lines connect their interfaces,
+and the reason is reported."""
 
 import os
 import subprocess
@@ -41,7 +41,7 @@ REASON = "has no surface, since its matrices have no cells"
 
 
 def rod():
-    """K and M of the nodes, which springs between neighbours join: free of stress in rigid motions."""
+    """Returns K and M of nodes with springs between neighbours; rigid motions cause no force."""
     K, M = np.zeros((30, 30)), np.diag(np.tile([0.4] * 3 + [1e-3] * 3, 5))
     for k in range(4):
         carried = np.eye(6)  # motion of the second node as a rigid continuation of the first
@@ -52,7 +52,7 @@ def rod():
 
 
 class Interfaces(InFolder):
-    runs = {}  # files of rods by their interfaces: each is computed once, and copied for the test
+    runs = {}  # files of rods by their interfaces, each of which is computed once and copied for the test
 
     def program(self, name, *arguments):
         done = subprocess.run([os.path.join(PROGRAMS, name), *arguments], cwd=self.folder, capture_output=True, text=True, timeout=240)
@@ -108,7 +108,7 @@ class Lines(Interfaces):
         self.assertEqual(scene.notes, [])
 
     def test_rods_end_on_the_balls_while_the_body_deforms(self):
-        """Interfaces on a line at 0, 1, 3 m; the coordinate moves the last one by 1 m along y."""
+        """The interfaces are on a line at 0, 1, 3 m; the coordinate moves the last one by 1 m along y."""
         positions, displacements = np.array([[0.0, 0, 0], [3, 0, 0], [1, 0, 0]]), np.zeros((3, 3, 1))
         displacements[1, 1, 0] = 1
         points, triangles, shapes = interface_lines(positions, displacements, 0.1)
@@ -189,7 +189,7 @@ class Reasons(Interfaces):
         self.assertIn("reduced from matrices", self.tool("bielle-loads", path, "rod", "--analysis", "1", "--time", "0.1", status=1))
 
     def changed(self, change):
-        """Notes and bodies by lines of a scene whose superelement file is changed."""
+        """Returns the notes, and the bodies drawn by lines, of a scene whose superelement file was changed."""
         path = self.run_rod()
         with h5py.File(self.path("rod.h5"), "r+") as file:
             change(file)

@@ -1,23 +1,22 @@
-"""Section forces of superelements: parts of meshes in front of planes, a cantilever with a load and with its weight, a bar that spins."""
+"""Tests of section forces of superelements: parts of meshes in front of planes, a cantilever with a load and with its
+weight, a spinning bar."""
 
 import contextlib
 import io
-import os
 import shutil
-import subprocess
 import unittest
 
 import numpy as np
 
-from box_mesh import REPOSITORY, InFolder, box
+from box_mesh import box
+from reduced_bar import ReducedBar
 
 from bielle_tools.mesh.cells import CELLS, SOLIDS
 from bielle_tools.mesh.half_space import moments_in_front
-from bielle_tools.messages import InputError  # box_mesh knows where
+from bielle_tools.messages import InputError  # box_mesh sets the path
 from bielle_tools.quantities.quantities import Quantities
 from bielle_tools.results import Results
 
-PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 LENGTH, WIDTH, DENSITY = 1.0, 0.1, 7800.0
 BODY = """
 body: bar
@@ -45,13 +44,13 @@ output: {every: 600}
 
 class OfHalfSpaces(unittest.TestCase):
     def integrals(self, points, cells, place, normal, density=3.0):
-        """Mass, first moments, and integrals of rho x_j x_k of the part in front."""
+        """Returns mass, first moments, and integrals of rho x_j x_k of the part in front of the plane."""
         W, V = moments_in_front(points, cells, {kind: np.full(len(block), density) for kind, block in cells.items()}, np.array(place, float),
                                 np.array(normal, float) / np.linalg.norm(normal))
         return W.sum(), V.sum(axis=0), V.T @ points
 
     def expect_corner(self, found, lengths, density=3.0):
-        """Integrals over the tetrahedron between the origin and points on the axes."""
+        """Returns integrals over the tetrahedron between the origin and points on the axes."""
         a = np.array(lengths)
         volume = a.prod() / 6
         np.testing.assert_allclose(found[0], density * volume, rtol=1e-12)
@@ -68,7 +67,7 @@ class OfHalfSpaces(unittest.TestCase):
         for kind in ("hexahedron", "hexahedron20", "hexahedron27", "wedge", "wedge15", "tetra", "tetra10", "pyramid"):
             cell = CELLS[kind]
             points = cell.reference - cell.reference[0]
-            a = np.array([0.4, 0.35, 0.3])  # inside of each cell; the edge of a pyramid is oblique
+            a = np.array([0.4, 0.35, 0.3])  # inside each cell; the edge of a pyramid is oblique
             if cell.shape == "pyramid":
                 points = points @ np.linalg.inv(points[[1, 3, 4]])
             self.expect_corner(self.integrals(points, {kind: np.arange(cell.nodes)[None]}, [a[0], 0, 0], -1 / a), a)
@@ -87,14 +86,12 @@ class OfHalfSpaces(unittest.TestCase):
                     np.testing.assert_allclose(first + second, total, atol=1e-11 * abs(whole[0]), err_msg=kind)
 
 
-class OfABar(InFolder):
+class OfABar(ReducedBar):
     @classmethod
     def setUpClass(cls):
-        cls.made = InFolder()
+        cls.made = ReducedBar()
         cls.made.setUp()
-        shutil.copy(os.path.join(REPOSITORY, "meshes", "bar.geo"), cls.made.folder)
-        cls.made.write("bar.yaml", BODY)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "bar.yaml", "-o", "bar.h5"], cwd=cls.made.folder, check=True, capture_output=True, timeout=120)
+        cls.made.reduce_bar(BODY)
 
     @classmethod
     def tearDownClass(cls):
@@ -102,17 +99,17 @@ class OfABar(InFolder):
 
     def run_model(self, rest, gravity="[0, 0, 0]"):
         shutil.copy(self.made.path("bar.h5"), self.folder)
-        self.write("model.yaml", MODEL.replace("GRAVITY", gravity) + rest)
-        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        self.run_bar(MODEL.replace("GRAVITY", gravity) + rest)
 
     def sections(self, places=(0.02, 0.3, 0.525, 0.97)):
-        """[(x, section (6))] of the last row, normal along the bar."""
+        """Returns [(x, section (6))] of the last row, with the normal along the bar."""
         with Results(self.path("run.h5")) as results:
             quantities = Quantities(results)
             return [(x, quantities.read(f"bar.section({x} 0 0, 1 0 0)").values[-1]) for x in places]
 
     def test_a_cantilever_with_a_load_at_its_end(self):
-        """Axial force, shear, torque, bending moment F (L - x). Loads keep their direction and the bar bends by 2e-4 rad, which is the error."""
+        """The section has axial force, shear, torque and the bending moment F (L - x). Loads keep their direction and
+        the bar bends by 2e-4 rad, which is the error."""
         self.run_model(HELD)
         force, moment = np.array([3000, 0, 1000.0]), np.array([200, 0, 0.0])
         turn = 1000 * LENGTH ** 2 / (2 * 210e9 * WIDTH ** 4 / 12)
@@ -125,7 +122,7 @@ class OfABar(InFolder):
             front = quantities.read("bar.section(0.3 0.01 0.02, 1 0.3 0.2)").values[-1]
             back = quantities.read("bar.section(0.3 0.01 0.02, -1 -0.3 -0.2)").values[-1]
             np.testing.assert_allclose(front, -back, atol=1e-8 * np.abs(root).max())  # action and reaction
-            np.testing.assert_allclose(front[:3], -root[:3], atol=1.5 * turn * 3000)  # nothing acts between
+            np.testing.assert_allclose(front[:3], -root[:3], atol=1.5 * turn * 3000)  # no load acts between
             self.assertEqual(quantities.read("bar.section(0.3 0 0, 1 0 0).norm").units, ["N"])
             self.assertEqual(quantities.read("bar.section(0.3 0 0, 1 0 0).ry").units, ["N m"])
 
@@ -137,7 +134,8 @@ class OfABar(InFolder):
             np.testing.assert_allclose(found / weight, [0, 0, -1, 0, length / 2, 0], atol=1e-4)
 
     def test_a_bar_that_spins(self):
-        """Centrifugal force rho A w^2 (L^2 - x^2)/2. The bar is 1e-4 longer, and vibrates a little after it was brought up."""
+        """The centrifugal force is rho A w^2 (L^2 - x^2)/2. The bar is stretched by 1e-4, and vibrates a little after
+        the start."""
         self.run_model(SPUN)
         for x, found in self.sections():
             self.assertAlmostEqual(found[0] / (DENSITY * WIDTH ** 2 * 3600 * (LENGTH ** 2 - x ** 2) / 2), 1, delta=5e-4)

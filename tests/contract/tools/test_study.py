@@ -1,4 +1,4 @@
-"""bielle-study: every line of a table becomes a run, failed ones among them; a stand-in takes the place of
+"""Tests of bielle-study: every line of a table becomes a run, including failed ones. A stand-in replaces
 bielle-mechanism."""
 
 import os
@@ -78,12 +78,12 @@ class Study(WithStandIn):
         self.assertEqual(self.study("speed,mass\n1,2\n").returncode, 0)
         with h5py.File(self.path("study.h5")) as file:
             self.assertEqual(sorted(file["runs/1"]), ["crossings", "eigen", "events", "joints", "measures", "time"])
-        for _ in range(2):  # a run that is taken over keeps its links
+        for _ in range(2):  # a reused run keeps its links
             self.assertEqual(self.study("speed,mass\n1,2\n", "--keep", "all").returncode, 0)
             with h5py.File(self.path("study.h5")) as file:
                 self.assertEqual(file["runs/1"].get("joints", getlink=True).path, "/runs/1/analysis_1/joints")
                 self.assertEqual(file["runs/1/joints/main/rate"][1, 0], 2)
-        self.assertEqual(self.runs(), ["1 2", "1 2"])  # `all` is more than was kept at first
+        self.assertEqual(self.runs(), ["1 2", "1 2"])  # `all` keeps more than the first time
 
     def test_runs_with_the_same_values_and_a_run_that_was_killed_are_told(self):
         done = self.study("speed,mass\n1,2\n13,2\n1,2\n")

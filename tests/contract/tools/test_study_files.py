@@ -1,4 +1,5 @@
-"""bielle-study keeps its inputs, files of others, and the runs of another study of the same file."""
+"""Tests that bielle-study does not overwrite its inputs, other files, and the runs of another study of the same
+file."""
 
 import fcntl
 import glob
@@ -51,7 +52,7 @@ class Files(WithStandIn):
         self.refused("is no table of a study", "model.yaml", "runs.csv", "-o", "z.h5", *GATHER)
         self.kept("z-table.csv", "mine\n1\n")
         os.remove(self.path("z-table.csv"))
-        for _ in range(2):  # its own is renewed
+        for _ in range(2):  # its own file is replaced
             self.assertEqual(self.call("model.yaml", "runs.csv", "-o", "z.h5", *GATHER).returncode, 0)
         self.kept("z-table.csv", "run,speed,mass,status,rate\n1,1,2,0,2.0\n2,2,2,0,4.0\n")
 
@@ -115,7 +116,7 @@ class Files(WithStandIn):
             thread.start()
         for thread in threads:
             thread.join()
-        for done in ends:  # one after the other, or told
+        for done in ends:  # one after the other, or refused with a message
             self.assertTrue(done.returncode == 0 or "another study is at work" in done.stderr, done.stderr)
         self.assertIn(0, [done.returncode for done in ends])
         with h5py.File(self.path("out.h5")) as file:

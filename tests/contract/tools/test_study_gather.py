@@ -1,4 +1,5 @@
-"""bielle-study: grids, gathered numbers, figures, and jobs for schedulers; against the stand-in and against single runs."""
+"""Tests of bielle-study: grids, gathered numbers, figures, and jobs for schedulers, compared with the stand-in and with
+single runs."""
 
 import csv
 import os
@@ -14,7 +15,7 @@ from python_tool import run_python_tool
 from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools.messages import InputError  # noqa: E402
-from bielle_tools.study import gather as study_gather, values as study_values  # noqa: E402  (box_mesh knows where)
+from bielle_tools.study import gather as study_gather, values as study_values  # noqa: E402  (box_mesh sets the path)
 from shares import share_of_tests as load_tests  # noqa: E402,F401
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
@@ -30,8 +31,8 @@ measures: {depth: {formula: "-bob.position.z", units: m}}
 analysis:
   - {type: dynamic, duration: 0.3, step: 5e-3}
 """
-# Stands in for sbatch: runs tasks of an array one after the other, whether or not they fail; prints the number of the
-# job as --parsable does.
+# A stand-in for sbatch. It runs the tasks of an array one after the other, even if some fail, and prints the number of
+# the job as --parsable does.
 SBATCH = """#!/bin/sh
 for script; do :; done
 tasks=$(sed -n 's/^#SBATCH --array=1-//p' "$script")
@@ -73,10 +74,11 @@ class Values(unittest.TestCase):
 
 class Taken(unittest.TestCase):
     def test_closed_forms(self):
-        # A polygon with uneven rows: a ramp from 0 to 3 within 3 s, back to 0 within 1 s.
+        # The curve is a polygon with unequal intervals, a ramp from 0 to 3 within 3 s and back to 0 within 1 s.
         time, values = np.array([0, 0.5, 3, 4]), np.array([0, 0.5, 3, 0])
         for what, number in (("last", 0), ("first", 0), ("min", 0), ("max", 3), ("absmax", 3), ("peak_to_peak", 3), ("time_of_max", 3),
-                             ("mean", 1.5), ("rms", np.sqrt((9 + 3) / 4))):  # integral of t^2 to 3: 9; of (3 s)^2 over 1: 3
+                             # The integral of t^2 up to 3 is 9, and that of (3 s)^2 over 1 is 3.
+                             ("mean", 1.5), ("rms", np.sqrt((9 + 3) / 4))):
             self.assertAlmostEqual(study_gather.take(what, time, values), number, 14, what)
         self.assertEqual(study_gather.take("time_of_absmax", time, -values), 3)
         self.assertEqual(study_gather.take("rms", time[:1], np.array([-2.0])), 2)
@@ -104,8 +106,8 @@ class Grids(WithStandIn):
         done = self.call("model.yaml", "--grid", "speed=1:3:3", "--grid", "mass=1, 2,-4, 10/2.5", "--gather", "f=eigen/frequency[1:2]",
                          "--gather", "top=max joints/main/rate", "--gather", 'second=text "limit point at load factor"[2]',
                          "--gather", "late=measures/power at 0.25", "--gather", "z=last nodes/hub/position[z]")
-        # The stand-in reads masses as numbers: a formula is not a number for it. Three runs fail, three more of the
-        # negative mass.
+        # The stand-in reads masses as numbers, and a formula is not a number. Three runs fail for this reason, and
+        # three due to the negative mass.
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("run 3: speed = 1, mass = -4: FAILED: model.yaml:3", done.stdout)
         table = table_of(self.path("model-study-table.csv"))
@@ -139,7 +141,7 @@ class Grids(WithStandIn):
         done = self.call("model.yaml", "--grid", "speed=1:99:99", "--set", "mass=1", "--gather", "top=max joints/mian/rate", "--jobs", "1")
         self.assertEqual(done.returncode, 1)
         self.assertIn("gather: top: there is no dataset 'joints/mian/rate' in the results; did you mean 'joints/main/rate'?", done.stderr)
-        self.assertLess(len(self.runs()), 99)  # the next ones run while the first one is read
+        self.assertLess(len(self.runs()), 99)  # the next runs are computed while the first one is read
         done = self.call("model.yaml", "--grid", "speed=1:3:3", "--set", "mass=1", "--gather", "top=max joints/main/rate")
         self.assertEqual(done.returncode, 0, done.stderr)
 
@@ -235,8 +237,8 @@ class Scheduled(WithStandIn):
             self.assertFalse(file.attrs["complete"])
         done = subprocess.run(["sh", "-c", command], cwd=self.folder, env=self.environment(), timeout=120, capture_output=True, text=True)
         self.expect_all()
-        self.assertEqual(len(self.runs()), 6)  # the first one was there
-        self.assertIn("3 runs to make in 3 jobs, 3 there from before", self.schedule())  # those that failed
+        self.assertEqual(len(self.runs()), 6)  # the first run existed
+        self.assertIn("3 runs to make in 3 jobs, 3 there from before", self.schedule())  # failed runs
 
     def test_wrong_folders_and_tasks_are_told(self):
         self.schedule()

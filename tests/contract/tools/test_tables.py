@@ -1,4 +1,5 @@
-"""bielle-table: its numbers are those that h5py reads, its peaks those of the data, and its RPC files read back."""
+"""Tests of bielle-table: its numbers are those that h5py reads, its peaks those of the data, and its RPC files are read
+back."""
 
 import csv
 import importlib.util
@@ -17,7 +18,7 @@ import numpy as np
 
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import run_python_tool  # box_mesh sets the path
 
 from bielle_tools.messages import InputError
 from bielle_tools.quantities.rpc_file import write_rpc
@@ -43,7 +44,8 @@ output: {layout: LAYOUT}
 
 
 def read_rpc(path):
-    """step, {channel: (unit, values)} of an RPC III file of floating-point numbers, by the format's description."""
+    """Returns step, {channel: (unit, values)} of an RPC III file of floating-point numbers, by the description of the
+    format."""
     with open(path, "rb") as file:
         data = file.read()
     text = [tuple(part.partition(b"\0")[0].decode("latin-1") for part in struct.unpack("32s96s", data[k:k + 128])) for k in range(0, 384, 128)]
@@ -81,7 +83,7 @@ class OfSynthetic(TableTool):
         self.time = synthetic.write_results(self.path("run.h5"), "box.h5")
 
     def peaks(self, *options):
-        """{quantity: [value, unit, time, place]}"""
+        """Returns {quantity: [value, unit, time, place]}."""
         rows = list(csv.DictReader(io.StringIO(self.succeed("run.h5", "--peaks", "--csv", "-", *options).stdout)))
         return {row["quantity"]: [float(row["value"]), row["unit"], float(row["time [s]"]), row["place"]] for row in rows}
 
@@ -195,7 +197,7 @@ class OfSynthetic(TableTool):
         self.assertEqual([column.to_pylist() for column in table.columns], [[0.0, 0.1, 0.2], [1 / 3, None, None], [5.0, None, None]])
 
     def parquet_by_a_stand_in(self, columns):
-        """Calls of the library, by the signatures that its reference documents."""
+        """Tests calls of the library, by the signatures in its reference."""
         library, parquet = types.ModuleType("pyarrow"), types.ModuleType("pyarrow.parquet")
         library.parquet = parquet
         library.array = lambda values, mask: [None if left_out else value for value, left_out in zip(values.tolist(), mask)]

@@ -1,5 +1,5 @@
-"""tools/tidy: which files it checks, lists or leaves out, and its exit status. Stand-ins take the place of CMake and
-clang-tidy: the one knows the sources of this test, the other finds something in files that contain `fault`."""
+"""Tests of tools/tidy: the files that it checks, lists or omits, and its exit status. Stand-ins replace CMake and
+clang-tidy: one lists the sources of this test, the other reports an error in files that contain `fault`."""
 
 import os
 import shutil
@@ -39,7 +39,7 @@ class Tidy(InFolder):
         self.git("commit", "--quiet", "-m", "x")
 
     def tidy(self, *arguments, status=0):
-        """@returns the files that were checked, and everything that was printed"""
+        """@returns the files that were checked, and the whole output"""
         if os.path.exists(self.log):
             os.remove(self.log)
         environment = dict(os.environ, LOG=self.log, PATH=self.path("stand_ins") + os.pathsep + os.environ["PATH"])

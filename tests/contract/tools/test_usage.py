@@ -1,4 +1,4 @@
-"""Commands without results files: help, folder of the output, wrong words."""
+"""Tests of commands without results files: help, folder of the output, wrong words."""
 
 import os
 import subprocess

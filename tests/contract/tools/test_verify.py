@@ -1,4 +1,5 @@
-"""tools/verify: good problems pass, wrong references, wrong orders, crashes and numbers that are none fail by name."""
+"""Tests of tools/verify: correct problems pass; wrong references, wrong orders, crashes and NaN fail with their
+name."""
 
 import json
 import math
@@ -73,7 +74,7 @@ class Usage(InFolder):
 
 
 class Released(unittest.TestCase):
-    """The copy of the report with the sources, and the collections."""
+    """Tests of the copy of the report in the sources, and of the collections."""
 
     def setUp(self):
         with open(os.path.join(REPOSITORY, "tests", "verification", "released.md"), encoding="utf-8") as file:
@@ -117,7 +118,7 @@ class Report(InFolder):
         self.assertIn(known, four_bar)
         self.write("good.py", four_bar)
         self.write("wrong_reference.py",
-                   four_bar.replace(known, "reference=-4.5615, known_to=1e-9"))  # it ends with 85 and is 2e-5 away
+                   four_bar.replace(known, "reference=-4.5615, known_to=1e-9"))  # it ends with 85, and differs by 2e-5
         for name, body in (("exact", "return {'x': 2.0}"), ("undefined",
                                                             "return {'x': float('nan') if level == 1 else 2.0}"),
                            ("crashing", "os.kill(os.getpid(), signal.SIGSEGV)"),
@@ -156,17 +157,17 @@ class Report(InFolder):
         self.check_page(problems)
 
     def check_page(self, problems):
-        """The page is self-contained, and states the same as the file for programs."""
+        """The page is self-contained, and contains the same as the file for programs."""
         with open(self.path("page/index.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn(f"8 of {len(problems)} problems failed", page)
-        self.assertEqual(page.count("<svg"), 2)  # two problems have a refinement that could be computed
+        self.assertEqual(page.count("<svg"), 2)  # two problems have a computed refinement
         self.assertNotRegex(page, r"(src|href)=[\"'](?!#)")
         self.assertEqual(set(re.findall(r"<h3 id='(\w+)'", page)), set(problems))
         self.assertIn("Sample &lt;exact&gt;", page)
         self.assertIn("crashed: SIGSEGV", page)
         self.assertEqual(page.count("<table"), page.count("</table>"))
-        self.assertNotIn("Collections</h2>", page)  # none of these problems is in one
+        self.assertNotIn("Collections</h2>", page)  # none of these problems belongs to a collection
 
     def test_submissions_and_collections_stand_on_the_page(self):
         done = verify("simple_pendulum", "-o", self.path("page"))

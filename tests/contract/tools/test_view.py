@@ -1,4 +1,4 @@
-"""bielle-view: the page in a headless browser shows the results, for regular and for damaged files."""
+"""Tests of bielle-view: the page in a headless browser shows the results, for valid and for damaged files."""
 
 import base64
 import http.client
@@ -86,7 +86,7 @@ class Command(InFolder):
 
     @staticmethod
     def described(page):
-        """The data of a page."""
+        """Returns the data of a page."""
         packed = re.search(r'id="description">([^<]+)<', page).group(1)
         return json.loads(zlib.decompress(base64.b64decode(packed)))
 
@@ -211,7 +211,8 @@ class Viewed(Pages, InFolder):
     def test_another_size_of_the_window_is_filled_until_the_view_is_changed(self):
         self.page(self.every())
         def ratio(width, height):
-            """The height of the picture relative to that of a picture that is fitted to the size of this window."""
+            """Returns the height of the picture relative to that of a picture that is fitted to the size of this
+            window."""
             self.browser.set_window_size(width, height)
             self.settled()
             return self.run_script("const c = bielle.camera, shown = c.height, touched = c.touched, target = c.target; c.fit(); const fitted = c.height;"
@@ -309,7 +310,7 @@ class Viewed(Pages, InFolder):
         self.no_errors()
 
     def arm(self, analysis):
-        """Results of a flexible arm."""
+        """Writes results of a flexible arm."""
         for command in ([os.path.join(PROGRAMS, "bielle-reduce"), os.path.join(REPOSITORY, "meshes", "bar.yaml"), "-o", self.path("bar.h5")],
                         [os.path.join(PROGRAMS, "bielle-mechanism"), self.write("arm.yaml", ARM.format(analysis))]):
             done = subprocess.run(command, capture_output=True, text=True, cwd=self.folder, check=False)
@@ -349,7 +350,7 @@ class Viewed(Pages, InFolder):
         places = "const f = bielle.shown.flexible[0]; return Array.from(f.body.nodes, (node, k) => bielle.real(f.corner(k)))"
         self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(7.3)")
         exact, stress = self.run_script(places), self.run_script("return Array.from(bielle.shown.flexible[0].values)")
-        # During a motion the drawn points are the same; the others are only computed on request.
+        # The drawn points are the same during a motion; other points are only computed on request.
         found = self.run_script(f"""bielle.player.go(3); bielle.shown.flexible[0].detail(arguments[0]); bielle.player.go(7.3); const f = bielle.shown.flexible[0], i = f.geometry.index;
             const coarse = [f.level, i.count, Math.max(...i.array), Array.from(f.values)]; return [...coarse, (() => {{ {places} }})(), Array.from(f.values)];""", levels[-1][0])
         self.assertEqual(found[:2], [len(levels) - 1, levels[-1][2]])
@@ -358,7 +359,7 @@ class Viewed(Pages, InFolder):
         self.assertNotEqual(found[3][levels[-1][1]:], stress[levels[-1][1]:])
         np.testing.assert_array_equal(found[4], exact)
         np.testing.assert_array_equal(found[5], stress)
-        # Cells are as large as two pixels while it plays, and the picture at rest has all triangles.
+        # Cells have the size of two pixels during a motion, and the picture at rest has all triangles.
         self.run_script("bielle.camera.height *= 40; bielle.player.toggle()")
         self.settled()
         self.assertEqual(self.run_script(drawn)[0], len(levels) - 1)
@@ -390,7 +391,7 @@ class Viewed(Pages, InFolder):
                     bielle.player.go(3); bielle.sent = 0; bielle.render(); const b = bielle.shown.batch;
                     return [bielle.sent, bielle.renderer.info.render.triangles - b.triangles.length / 3, b.passes.map(objects => objects[0].visible)];""", stress, cell)
                 self.assertEqual((sent, drawn, passes), (20 * count * numbers * 4, 20 * triangles, [True, False]))
-        # A second pass over rigid parts is made while some of them are transparent.
+        # The rigid parts need a second pass while some of them are transparent.
         transparent = "return [bielle.shown.batch.passes.map(objects => objects[0].visible), bielle.shown.batch.looks.data.filter((v, k) => k % 4 === 3 && v > 0 && v < 0.99).length > 0]"
         self.run_script("bielle.entries.toggle(bielle.shown.layout.parts[0].entry, 'faint')")
         self.assertEqual(self.run_script(transparent), [[True, True], True])
@@ -408,13 +409,13 @@ class Viewed(Pages, InFolder):
         self.no_errors()
 
     def beam(self):
-        """The page of a beam with stresses, seen along z without perspective and symbols."""
+        """Opens the page of a beam with stresses, seen along z without perspective and symbols."""
         item, records = stressed_beam()
         self.page(write_results(self.path("beam.h5"), {"n": resting(3)}, [item], extra=records))
         self.run_script("bielle.settings.grid = false; bielle.camera.view('z'); bielle.camera.ortho = true; bielle.camera.fit()")
 
     def elements_colours(self):
-        """Colours of the middles of the two elements as drawn now, (2,3)."""
+        """Returns the drawn colours of the middles of the two elements (2,3)."""
         self.settled()
         return np.array(self.run_script("""bielle.render(); const c = document.getElementById("scene"), o = document.createElement("canvas"), r = c.width / c.clientWidth; o.width = c.width; o.height = c.height;
             const p = o.getContext("2d"); p.drawImage(c, 0, 0); return [0.5, 1.5].map(x => bielle.camera.pixels([(x - bielle.data.centre[0]) / bielle.data.size, 0, 0.1 / bielle.data.size]))
@@ -434,7 +435,8 @@ class Viewed(Pages, InFolder):
         for row in range(3):
             self.run_script("bielle.player.go(arguments[0])", row)
             shades.append(self.elements_colours())
-        # The light is the same everywhere: colours are those of the scale times one factor, apart from the shine, which is equal for all.
+        # The light is the same everywhere, so that colours are those of the scale times one factor, except for an equal
+        # shine.
         blue = np.array([stress_colours(share / 1e8) for share in (0.0, 10e6, 20e6, 40e6, 100e6)], float)[:, 2]
         found = np.array([shades[0][0], shades[0][1], shades[1][0], shades[1][1], shades[2][0]])[:, 2]
         factor, shine = np.polyfit(blue, found, 1)
@@ -449,7 +451,7 @@ class Viewed(Pages, InFolder):
         synthetic.write_superelement(self.path("box.h5"))
         synthetic.write_results(self.path("run.h5"), "box.h5")
         self.page(self.path("run.h5"))
-        largest = synthetic.YOUNG * synthetic.STRAIN  # stress in the body; the beam has 40 MPa
+        largest = synthetic.YOUNG * synthetic.STRAIN  # stress in the body, while the beam has 40 MPa
         self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(20)")
         np.testing.assert_allclose(self.run_script("return bielle.stressRange()"), [0, largest], rtol=1e-3)
         self.assertEqual(self.run_script("return [bielle.shown.batch.range.y, bielle.shown.flexible[0].range.y]"), 2 * [self.run_script("return bielle.stressRange()[1]")])
@@ -471,7 +473,7 @@ class Viewed(Pages, InFolder):
         np.testing.assert_allclose(phases[0], -phases[1], atol=1e-4)
         np.testing.assert_allclose(phases[0], phases[2], atol=1e-9)
         np.testing.assert_allclose(2 * phases[0], phases[3], atol=1e-4)
-        self.assertAlmostEqual(np.linalg.norm(phases[0], axis=1).max(), 0.1, delta=0.03)  # a tenth of the size
+        self.assertAlmostEqual(np.linalg.norm(phases[0], axis=1).max(), 0.1, delta=0.03)  # 0.1 of the size
         decay = self.run_script("bielle.settings.decay = true; bielle.settings.amplitude = 1; bielle.player.go(18); return [bielle.amplitude(), bielle.shown.sequence.decay]")
         self.assertAlmostEqual(decay[0], np.exp(decay[1] / 2), 9)
         self.no_errors()
@@ -479,7 +481,7 @@ class Viewed(Pages, InFolder):
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
 class Checked(Pages, InFolder):
-    """Models that were only checked."""
+    """Tests of models that were only checked."""
     BAR = """gravity: [0, 0, -9.81]
 nodes: {a: {position: [1, 0, 0]}}
 elements: {a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}}
@@ -495,11 +497,11 @@ joints:
         return self.run_script("const box = document.getElementById('verdict'); return [box.className, Array.from(box.children, e => e.textContent)]"), marks
 
     def colours(self):
-        """{entry: excess of red over green}, shares of 1"""
+        """Returns {entry: excess of red over green} as shares of 1."""
         return self.run_script("const d = bielle.shown.batch.looks.data; return Object.fromEntries(bielle.shown.layout.parts.map((part, k) => [part.entry, d[4 * k] - d[4 * k + 1]]))")
 
     def checked(self, text, status=0):
-        """Results of the program's check of a model."""
+        """Writes results of the program's check of a model."""
         done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), self.write("model.yaml", text), "--check", "-o", self.path("check.h5")],
                               capture_output=True, text=True, cwd=self.folder, check=False)
         self.assertEqual(done.returncode, status, done.stderr)

@@ -1,4 +1,4 @@
-"""Input files of CalculiX: a body's mesh, its material, and one static step per instant."""
+"""Writes input files of CalculiX with a body's mesh, its material, and one static step per instant."""
 
 import numpy as np
 
@@ -83,15 +83,15 @@ def _write_support(file, loaded, references):
 
 
 def three_supports(points):
-    """Six pairs (node, direction) that hold a body statically determinate: a node, one far away, and one far from
-    both."""
+    """Returns six pairs (node, direction) that hold a body statically determinate, on a node, one far away, and one far
+    from both."""
     a = int(np.argmin(points @ np.array([1, 0.9, 0.8])))
     b = int(np.argmax(np.linalg.norm(points - points[a], axis=1)))
     axis = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
     r = points - points[a]
     c = int(np.argmax(np.linalg.norm(r - np.outer(r @ axis, axis), axis=1)))
-    # b must not turn about a, nor c about the line between them: the two best directions of b and the best one of c are
-    # held.
+    # b must not rotate about a, nor c about the line between them, so that the two best directions of b and the best
+    # one of c are held.
     along = int(np.argmax(np.abs(axis)))
     normal = np.cross(axis, points[c] - points[a])
     second = [k for k in range(3) if k != along]

@@ -35,7 +35,7 @@ def plane_strain_of(body, place, direction):
 
 
 def gauge_strains(plane, angles):
-    """(...,k) strains of gauges at angles (k) [rad] of plane strains (...,3)."""
+    """Returns strains (...,k) of gauges at angles (k) [rad] from plane strains (...,3)."""
     mean, half, shear = (plane[..., 0] + plane[..., 1]) / 2, (plane[..., 0] - plane[..., 1]) / 2, plane[..., 2] / 2
     return mean[..., None] + half[..., None] * np.cos(2 * angles) + shear[..., None] * np.sin(2 * angles)
 
@@ -57,7 +57,8 @@ def angles_of_rosette(word):
 
 
 def _in_surface(direction, normal):
-    """Unit vector of the direction in the plane of the surface. @raises InputError if the direction is normal to it"""
+    """Returns the unit vector of the direction in the plane of the surface. @raises InputError if the direction is
+    normal to it"""
     length = np.linalg.norm(direction)
     if not length > 0:
         raise InputError("the direction of a gauge has no length")
@@ -73,7 +74,7 @@ def _in_surface(direction, normal):
 
 
 def _strain(body, point):
-    """(6,n) strain xx yy zz yz xz xy (engineering shears) per coordinate."""
+    """Returns the strain xx yy zz yz xz xy (engineering shears) per coordinate (6,n)."""
     rows = np.full(len(body.points), -1)
     rows[body.stressed] = np.arange(len(body.stressed))
     used = np.abs(point.weights) > 1e-12

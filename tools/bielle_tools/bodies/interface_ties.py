@@ -1,4 +1,4 @@
-"""Interfaces that are ties of the deck from which a body was reduced: their nodes and weights, read from the deck again."""
+"""Reads nodes and weights of interfaces that are ties of a deck, from the deck from which the body was reduced."""
 
 import os
 
@@ -29,8 +29,8 @@ def tie_of_interface(path, name, said):
 
 
 def weighted_nodes(path, name, points, tie, of_deck):
-    """Nodes of the superelement's mesh (points) that a tie of nodes ties, and their weights. @raises InputError if the
-    deck has changed since the mesh was made"""
+    """Returns the nodes of the superelement's mesh (points) in a tie of nodes, and their weights. @raises InputError if
+    the deck has changed since the mesh was made"""
     places = of_deck[np.asarray(tie["nodes"]) - 1]
     apart = np.linalg.norm(points[None, :, :] - places[:, None, :], axis=2)
     nodes = apart.argmin(axis=1)

@@ -98,7 +98,7 @@ class LoadedBody:
                         self._sums(interface, inertia), q)
 
     def _angular_velocity(self, row, frame):
-        """Angular velocity of the rigid motion nearest to those of the interfaces, body axes."""
+        """Returns the angular velocity of the rigid motion nearest to those of the interfaces, in body axes."""
         R, L = rotation_matrices(frame[3:]), max(float(np.ptp(self.points, axis=0).max()), 1e-300)
         rows, right = [], []
         for (name, _, _), X in zip(self.interfaces, self.positions):
@@ -115,14 +115,14 @@ class LoadedBody:
         return np.linalg.lstsq(np.vstack(rows), np.concatenate(right), rcond=None)[0][3:]
 
     def _sums(self, interface, inertia):
-        """Force, and moment about the origin of the mesh."""
+        """Returns the force, and the moment about the origin of the mesh."""
         force = interface[:, :3].sum(axis=0) + inertia.sum(axis=0)
         moment = interface[:, 3:].sum(axis=0) + np.cross(self.positions, interface[:, :3]).sum(axis=0) \
             + np.cross(self.points, inertia).sum(axis=0)
         return force, moment
 
     def _rigid(self):
-        """(p,3,6) rigid motions about the origin."""
+        """Returns rigid motions (p,3,6) about the origin."""
         rigid = np.zeros((len(self.points), 3, 6))
         rigid[:, range(3), range(3)] = 1
         for k in range(3):
@@ -140,8 +140,8 @@ class LoadedBody:
         return field, float(np.linalg.norm((inertia - first).sum(axis=0)) / size)
 
     def _rigid_acceleration(self, inertia, omega):
-        """Acceleration of the mass centre, and angular acceleration, by Newton's and Euler's equations of the
-        undeformed body."""
+        """Returns the acceleration of the mass centre, and the angular acceleration, by Newton's and Euler's equations
+        of the undeformed body."""
         lumped = np.asarray(self.mesh_mass.sum(axis=1)).ravel()
         centre = lumped @ self.points / lumped.sum()
         r = self.points - centre

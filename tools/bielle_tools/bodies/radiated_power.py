@@ -63,8 +63,8 @@ def body_velocities(time, frame, q):
 
 
 def rates(time, values):
-    """(nt, k) derivatives of cubic splines through the rows of (nt, k); not a number next to gaps that leave no two
-    rows together. @raises InputError if the time does not increase"""
+    """Returns derivatives (nt, k) of cubic splines through the rows of (nt, k); they are not a number next to gaps that
+    leave no two rows together. @raises InputError if the time does not increase"""
     if np.any(np.diff(time) <= 0):
         row = int(np.flatnonzero(np.diff(time) <= 0)[0])
         raise InputError(f"velocities need times that increase: after {time[row]:g} s comes {time[row + 1]:g} s")

@@ -21,8 +21,8 @@ SMALLEST_PART = 1e-9  # mass of a part relative to that of the body
 
 
 def note_unrecorded_loads(results, element):
-    """Notes that the model may load the body by loads that the results do not record: load patterns, and forces on
-    points inside."""
+    """Notes that the model may have loads on the body that the results do not record: load patterns, and forces on
+    inner points."""
     try:
         model = yaml.safe_load(results.text_of("input"))
         entry = results.entry_of(element)
@@ -58,7 +58,7 @@ class Section:
         """(nb) whether each interface is in front of the plane."""
         try:
             tied = [self.loaded.points[surface.nodes] for surface in self.loaded.surfaces]
-        except InputError:  # a surface that the file does not name
+        except InputError:  # the file does not name the surface
             note("sides of interfaces are told by their positions, since the file does not name their surfaces")
             tied = [position[None] for position in self.loaded.positions]
         heights = [(points - self.place) @ self.normal for points in tied]

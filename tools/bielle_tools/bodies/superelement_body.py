@@ -106,7 +106,7 @@ class SuperelementBody:
         return self.placed(frame, self.local_displacement(q), scale)
 
     def placed(self, frame, u, scale=1.0):
-        """Positions and elastic displacements from displacements (p,3) in the body's frame."""
+        """Returns positions and elastic displacements from displacements (p,3) in the body's frame."""
         R = rotation_matrices(frame[3:])
         return frame[:3] + (self.points + scale * u) @ R.T, u @ R.T
 
@@ -139,7 +139,7 @@ def interface_motions(path, group=""):
 
 
 def mass_centre(path, group=""):
-    """The centre of mass (3), body axes [m]. @raises InputError"""
+    """Returns the centre of mass (3) in body axes [m]. @raises InputError"""
     with _open(path, group) as opened, reading(path, "mass_properties"):
         centre = np.asarray((opened[group] if group else opened)["mass_properties/centre"], float)
         if centre.shape != (3,) or not np.all(np.abs(centre) < LARGEST):
@@ -148,7 +148,7 @@ def mass_centre(path, group=""):
 
 
 def decoded(name):
-    """The name of a load, point or group, as the file writes it: HDF5 reserves some letters."""
+    """Returns the name of a load, point or group in the file, since HDF5 reserves some letters."""
     return name.replace("%2F", "/").replace("%2E", ".").replace("%25", "%")
 
 
@@ -191,7 +191,7 @@ def _node_numbers(recovery, name, count, points):
 
 
 def superelement_of(results, element, given):
-    """The superelement of an element of the results, or one piece of a body. given: as in find_superelement."""
+    """Returns the superelement of an element of the results, or one piece of a body. given: as in find_superelement."""
     body = SuperelementBody(find_superelement(results, element, given), results.text(f"elements/{element}", "group"))
     check_coordinates(results, element, body.path, body.displacement.shape[1])
     return body
@@ -207,7 +207,7 @@ def check_coordinates(results, element, path, needed):
 
 
 def find_superelement(results, element, given):
-    """Path of the superelement file of an element of the results.
+    """Returns the path of the superelement file of an element of the results.
 
     given: {element: path} from the command line, where an element stands for all its pieces. Otherwise the attribute `file` of
     the element; a file of that name next to the results or in the current folder serves as well, so that results and

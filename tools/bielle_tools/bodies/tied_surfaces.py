@@ -58,7 +58,7 @@ def tied_surfaces(path, group, body, interfaces, positions, given):
 
 
 def _carried(name, path, body, kept, axes, position, columns):
-    """Nodes that move with the interface alone, as a rigid body."""
+    """Returns the nodes that move with the interface alone, as a rigid body."""
     if not kept.all():
         raise InputError(f"'{path}': the rigid interface '{name}' does not keep all directions: its surface moves by itself")
     T = body.displacement.reshape(len(body.points), 3, -1)
@@ -86,8 +86,8 @@ def _group_nodes(name, path, surface, groups):
 
 
 def _spread(name, path, points, faces, nodes, position):
-    """Forces for the surface's mean motion: force F and moment M about the centroid are the traction F/A + (J^-1 M) x
-    r."""
+    """Returns the forces for the surface's mean motion: force F and moment M about the centroid are the traction F/A +
+    (J^-1 M) x r."""
     on = np.zeros(len(points), bool)
     on[nodes] = True
     chosen = {kind: block[on[block].all(axis=1)] for kind, block in faces.items()}

@@ -32,7 +32,7 @@ class _Instance:
 
 
 class Assembly:
-    """Passes keywords to the reader of the file, or of the part or instance that they belong to."""
+    """Passes keywords to the reader of the file, or of the part or instance to which they belong."""
 
     def __init__(self, reader, make):
         """@param make: returns a new reader"""
@@ -91,7 +91,7 @@ class Assembly:
 
     # ---- names --------------------------------------------------------------------------------------------------
     def shift(self, keyword):
-        """The amount by which numbers in a set or surface are raised; None if they are those of `own`."""
+        """Returns the amount by which numbers in a set or surface are raised, or None if they are those of `own`."""
         name = keyword.options.get("INSTANCE")
         if name is None:
             return None
@@ -102,7 +102,7 @@ class Assembly:
         return number * STRIDE
 
     def own(self, label, kind):
-        """The number of a node (kind NSET) or element (ELSET) that is named outside of parts and instances."""
+        """Returns the number of a node (kind NSET) or element (ELSET) that is named outside of parts and instances."""
         lowered = label - STRIDE
         known = self.reader.reference_points if kind == "NSET" else self.reader.single_nodes
         return lowered if len(self.instances) > 1 or lowered in known else label
@@ -118,19 +118,19 @@ class Assembly:
         return int(last) + STRIDE * (number or 0)
 
     def other_names(self, name):
-        """Further names, upper case, by which a set may be stored."""
+        """Returns further names, in upper case, by which a set may be stored."""
         local = self._local(name).upper()
         if len(self.instances) == 1:
             return [local, f"{self.instances[0].name.upper()}.{local}"]
         return [local] if self.instances else [local.rpartition(".")[2]]
 
     def _local(self, name):
-        """The name without the prefix of the assembly."""
+        """Returns the name without the prefix of the assembly."""
         before, dot, after = name.partition(".")
         return after if dot and before.upper() == self.name.upper() and self._number(before) is None else name
 
     def told(self, number):
-        """The number of a node or element, as messages show it."""
+        """Returns the number of a node or element for messages."""
         k, local = divmod(int(number), STRIDE)
         if k < 0:
             return f"{local} of the assembly"

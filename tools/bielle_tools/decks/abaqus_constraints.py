@@ -44,14 +44,14 @@ class Constraint:
         return self.keyword.where
 
     def words(self):
-        """The words of each data line."""
+        """Returns the words of each data line."""
         return [[word.strip() for word in row.rstrip(",").split(",")] for row in self.keyword.rows]
 
     def prefix(self):
         return self.scope.prefix.upper() if self.scope else ""
 
     def shown(self, name):
-        """The name of a constraint in messages and among the ties of the body."""
+        """Returns the name of a constraint in messages and among the ties of the body."""
         return (self.scope.shown if self.scope else "") + name
 
     def turned(self, axes):
@@ -87,8 +87,8 @@ class Constraints:
             self.orientations[moved.prefix() + name] = moved
 
     def oriented_axes(self, constraint, name):
-        """Axes (columns) of an *ORIENTATION that a constraint names. @raises TieRefusal unless it is rectangular and given by
-        coordinates"""
+        """Returns the axes (columns) of an *ORIENTATION that a constraint names. @raises TieRefusal unless it is
+        rectangular and given by coordinates"""
         found = self.orientations.get(constraint.prefix() + name.upper()) or self.orientations.get(name.upper())
         if not found:
             raise TieRefusal(f"there is no *ORIENTATION, NAME={name}")
@@ -105,7 +105,7 @@ class Constraints:
 
     @staticmethod
     def transformed_axes(transform):
-        """Axes (columns) of a *TRANSFORM. @raises TieRefusal unless it is rectangular"""
+        """Returns the axes (columns) of a *TRANSFORM. @raises TieRefusal unless it is rectangular"""
         kind = transform.options.get("TYPE", "R").upper()
         if kind != "R":
             raise TieRefusal(f"its reference node has a *TRANSFORM of TYPE={kind}; TYPE=R is read")
@@ -130,7 +130,7 @@ def _axes(keyword, x, in_plane):
 
 
 def _turn(axis, degrees):
-    """Rotation about axis 1, 2 or 3."""
+    """Returns the rotation about axis 1, 2 or 3."""
     if axis not in (1, 2, 3):
         raise TieRefusal("the additional rotation of its *ORIENTATION is about axis 1, 2 or 3")
     return rotation(np.eye(3)[int(axis) - 1], np.radians(degrees))

@@ -1,4 +1,4 @@
-// Writes a superelement, reads it back, and asks the mechanism's library for a rotation.
+// Writes a superelement, reads it, and calls the mechanism's library for a rotation.
 #include <cstdio>
 
 #include "mechanism/math/so3.hpp"

@@ -1,4 +1,4 @@
-// A pendulum in memory: no file is read or written. mechanism/README.md shows it.
+// A pendulum in memory, without reading or writing files. mechanism/README.md shows this program.
 #include <cstdio>
 
 #include "mechanism/io/mechanism_file.hpp"

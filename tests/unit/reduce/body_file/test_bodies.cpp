@@ -19,7 +19,7 @@ using namespace bielle::reduce;
 TEST_CASE("every body of meshes/ is read and meshed with its groups") {
   std::set<std::string> names;
   std::map<std::string, double> parts,
-      wholes;  // volumes of bodies that are one solid of several, and of their geometry
+      wholes;  // volumes of the solids that bodies select, and of their whole geometry
   for (const auto& entry : std::filesystem::directory_iterator(std::string(BIELLE_SOURCE_DIR) + "/meshes")) {
     if (entry.path().extension() != ".yaml") continue;
     CAPTURE(entry.path().string());
@@ -27,7 +27,7 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
     Progress progress(true);
     const Mesh mesh = import_mesh(body.mesh, progress);
     names.insert(entry.path().stem().string());
-    const bool deck = std::filesystem::path(body.mesh.path).extension() == ".inp";  // its couplings name nodes
+    const bool deck = std::filesystem::path(body.mesh.path).extension() == ".inp";  // couplings of a deck name nodes
     for (const InterfaceRequest& interface : body.options.interfaces)
       CHECK(mesh.groups.at(interface.group).dimension == (deck ? 0 : 2));
     for (const LoadRequest& load : body.options.loads) CHECK(mesh.groups.at(load.group).dimension == 2);
@@ -35,7 +35,7 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
     if (deck) continue;
     const double whole = geometry_volume(body.mesh.path, body.mesh.length_unit);
     if (body.mesh.solids.empty()) {
-      // Some fillets are straightened, everything else is exact to the order of the elements.
+      // Some fillets are straightened; all other surfaces are exact to the order of the elements.
       CHECK(mesh_volume(mesh) == Approx(whole).epsilon(1e-3));
     } else {
       parts[body.mesh.path] += mesh_volume(mesh);
@@ -49,7 +49,7 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
 }
 
 TEST_CASE(
-    "The summary names the method for modes, and the other where it would save more than a quarter of the whole") {
+    "The summary names the method for modes, and the other one if it would save more than a quarter of the time") {
   ReductionReport report;
   report.method = "ARPACK";
   report.solves = report.sweeps = 445;

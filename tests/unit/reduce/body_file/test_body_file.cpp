@@ -1,4 +1,4 @@
-// Body files: every key, and the messages about wrong ones.
+// Tests of every key of body files, and of the messages about wrong ones.
 #include <set>
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ using Catch::Contains;
 
 namespace {
 
-// A small body file in which single lines are replaced.
+// A small body file, in which tests replace single lines.
 std::string body(const std::string& from = "", const std::string& to = "") {
   std::string text =
       "body: rod\n"                                                                // 1
@@ -46,7 +46,7 @@ BodyFile read(const std::string& from = "", const std::string& to = "") {
   return parse_body_file(body(from, to), "models/rod.yaml");
 }
 
-// The message, without the name of the file.
+// Returns the message without the name of the file.
 std::string message(const std::string& from, const std::string& to) {
   const std::string text = message_of<InputError>([&] { read(from, to); });
   return text.starts_with("models/rod.yaml:") ? text.substr(16) : text;
@@ -99,7 +99,7 @@ TEST_CASE("a body file becomes a request for a mesh and the options of a reducti
   CHECK(options.stress_recovery == RecoveryExtent::surface);
 }
 
-TEST_CASE("what may be left out is left out") {
+TEST_CASE("optional keys may be left out") {
   const BodyFile file = parse_body_file(
       "body: bar\ngeometry: /data/bar.msh\nmaterials: {steel: {young: 210e9, poisson: 0.3, density: 7850}}\n"
       "regions: {all: steel}\ninterfaces: {end: {surface: end}}\nmodes: {below: \"5*1000\"}\n",
@@ -115,7 +115,7 @@ TEST_CASE("what may be left out is left out") {
   CHECK(file.options.damping_ratios.empty());
 }
 
-TEST_CASE("surfaces by shape") {
+TEST_CASE("surfaces are selected by shape") {
   const BodyFile file = read("big_end: {surface: bore_big, tie: rigid}",
                              "big_end: {surface: {cylinder: {point: [1, 2, 3], axis: [0, 0, 2], radius: 0.024}}}");
   CHECK(file.options.interfaces[0].group == "interfaces.big_end");
@@ -153,7 +153,7 @@ TEST_CASE("surfaces by shape") {
   check("surface: bore_big,", "surface: {},", "9: interfaces.big_end.surface: expected a shape");
 }
 
-TEST_CASE("interfaces keep directions, have axes, and may be free") {
+TEST_CASE("interfaces keep directions, may have axes of their own, and may be free") {
   const BodyFile some = read("tie: rigid", "directions: [x, rz], rotation_vector: [0, 0, \"pi/2\"]");
   CHECK(some.options.interfaces[0].kept == std::array<bool, 6>{true, false, false, false, false, true});
   CHECK((some.options.interfaces[0].rotation - Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()).matrix())
@@ -184,7 +184,7 @@ TEST_CASE("interfaces keep directions, have axes, and may be free") {
   check("big_end:", "big/end:", "9: interfaces.big/end: expected a name without '/'");
 }
 
-TEST_CASE("modes by number, by frequency or both") {
+TEST_CASE("modes are chosen by number, by frequency or by both") {
   CHECK(read("count: 20", "count: 0").options.modes.count == 0);
   const BodyFile both = read("count: 20", "count: 20, below: 3e3");
   CHECK(both.options.modes.count == 20);
@@ -201,7 +201,7 @@ TEST_CASE("modes by number, by frequency or both") {
   check("modes: {count: 20}\n", "", "1: the key 'modes' is missing");
 }
 
-TEST_CASE("damping by one ratio, one per mode, or Rayleigh's two numbers") {
+TEST_CASE("damping is one ratio, one per mode, or Rayleigh's two numbers") {
   CHECK(read("ratio: 0.01", "ratio: [0.01, 0.02, 0]").options.damping_ratios == std::vector<double>{0.01, 0.02, 0});
   const BodyFile rayleigh = read("ratio: 0.01", "rayleigh: [1.5, 2e-6]");
   CHECK(rayleigh.options.rayleigh == std::array<double, 2>{1.5, 2e-6});
@@ -223,7 +223,7 @@ TEST_CASE("loads are a pressure, a traction or a force") {
   check("pressure: 1e5", "force: [0, 3]", "14: loads.gas.force: ");
 }
 
-TEST_CASE("points are places or means of surfaces, and ask for residual vectors") {
+TEST_CASE("points are places or means of surfaces, and may request residual vectors") {
   const auto with = [](const std::string& points) { return read("loads:\n", "points: {" + points + "}\nloads:\n"); };
   const BodyFile file = with(
       "sensor: {at: [1, 2, 3]}, pad: {group: crown, position: [0, 0, 1], residual: [x, z, ry]}, "
@@ -266,7 +266,7 @@ TEST_CASE("points are places or means of surfaces, and ask for residual vectors"
   check("gas: {surface", "g/as: {surface", "14: loads.g/as: expected a name without '/'");
 }
 
-TEST_CASE("recovery") {
+TEST_CASE("recovery selects displacements and stress") {
   const BodyFile file = read("{displacement: all, stress: surface}", "{displacement: surface, stress: none}");
   CHECK(file.options.displacement_recovery == RecoveryExtent::surface);
   CHECK(file.options.stress_recovery == RecoveryExtent::none);
@@ -276,7 +276,7 @@ TEST_CASE("recovery") {
   check("stress: surface", "strain: surface", "15: recovery.strain: strain follows from stress and material");
 }
 
-TEST_CASE("mesh sizes by group, interface or load") {
+TEST_CASE("mesh sizes are given by group, interface or load") {
   const BodyFile file = read("order: 2", "order: 1, sizes: {big_end: 1e-3, gas: 2e-3, web: 4e-3}");
   CHECK(file.mesh.order == 1);
   CHECK(file.mesh.sizes.at("bore_big").size == 1e-3);
@@ -297,7 +297,7 @@ TEST_CASE("regions name materials that exist") {
   check("regions: {rod: steel}\n", "", "1: the key 'regions' is missing");
 }
 
-TEST_CASE("unknown keys, missing ones and numbers that are none") {
+TEST_CASE("unknown keys, missing ones and invalid numbers are refused") {
   check("interfaces:", "interfacs:", "8: 'interfacs' is not a key of a body file; did you mean 'interfaces'?");
   check("body: rod\n", "", "1: the key 'body' is missing");
   check("geometry: conrod.geo\n", "", "1: the key 'geometry' is missing");
@@ -345,20 +345,20 @@ TEST_CASE("values have units: lengths, angles, pressures, frequencies and dampin
   check("loads:\n", "points: {pin: {at: [0, 0, 5 N]}}\nloads:\n", "13: points.pin.at[3]: " + wrong("m", "N"));
 }
 
-TEST_CASE("a unit of the geometry scales the geometry alone, and is a word") {
+TEST_CASE("the unit of the geometry is a word, and scales the geometry alone") {
   CHECK(read("length_unit: mm", "length_unit: in").mesh.size == 3e-3);
   check("length_unit: mm", "length_unit: mn",
         "3: length_unit: 'mn' is not a unit of length; expected one of 'm', 'mm'");
 }
 
-TEST_CASE("keys without values are empty maps, other values than maps are refused") {
+TEST_CASE("keys without values are empty maps, and values other than maps are refused") {
   CHECK(read("{displacement: all, stress: surface}", "").options.stress_recovery == RecoveryExtent::surface);
   check("{ratio: 0.01}", "", "12: damping: expected either ratio or rayleigh");
   check("{size: 3e-3, order: 2}", "3e-3", "4: mesh: expected the mesh as keys with values");
   check("{surface: bore_big, tie: rigid}", "bore_big", "9: interfaces.big_end: expected an interface as keys");
 }
 
-TEST_CASE("each key of a body file stands in one table with a sentence") {
+TEST_CASE("each key of a body file is in one table, with a sentence") {
   std::set<std::string> names;
   for (const KeyTable* table : tables_below(body_file_keys())) {
     CAPTURE(table->of);
@@ -373,7 +373,7 @@ TEST_CASE("each key of a body file stands in one table with a sentence") {
     CHECK(names.contains(name));
 }
 
-TEST_CASE("numbers may use parameters of the file, which may use those above them") {
+TEST_CASE("numbers may use parameters of the file, and parameters those above them") {
   const BodyFile file = read("body: rod\n", "body: rod\nparameters: {mm: 1e-3, fine: 2*mm}\n");
   CHECK(file.mesh.size == 3e-3);
   std::string text = body("size: 3e-3", "size: \"fine\"");
@@ -409,7 +409,7 @@ TEST_CASE("Masses are read with every key") {
   CHECK_FALSE(read().options.lumped);
 }
 
-TEST_CASE("Wrong masses are refused with what was expected") {
+TEST_CASE("Wrong masses are refused with the expected value") {
   const auto refusal = [](const std::string& mass) {
     return message("recovery:", "masses:\n  motor: " + mass + "\nrecovery:");
   };

@@ -1,4 +1,4 @@
-// Materials in body files: their stiffness, and the messages about impossible ones.
+// Tests of materials in body files: their stiffness, and the messages about impossible ones.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -34,7 +34,7 @@ constexpr int first[6] = {0, 1, 2, 1, 0, 0}, second[6] = {0, 1, 2, 2, 2, 1};
 
 }  // namespace
 
-TEST_CASE("isotropic constants: modulus and contraction of a pulled bar") {
+TEST_CASE("isotropic constants give the modulus and the contraction of a pulled bar") {
   const Material steel = material("{young: 210e9, poisson: 0.3, density: 7850}");
   const Matrix6 compliance = steel.elasticity.inverse();
   CHECK(1 / compliance(0, 0) == Approx(210e9).epsilon(1e-12));
@@ -43,7 +43,7 @@ TEST_CASE("isotropic constants: modulus and contraction of a pulled bar") {
   CHECK(steel.density == 7850);
 }
 
-TEST_CASE("orthotropic constants come back from the compliance, each in its place") {
+TEST_CASE("orthotropic constants are the entries of the compliance") {
   const Matrix6 s = material(laminate + "}").elasticity.inverse();
   CHECK(1 / s(0, 0) == Approx(140e9).epsilon(1e-12));
   CHECK(1 / s(1, 1) == Approx(10e9).epsilon(1e-12));
@@ -56,15 +56,15 @@ TEST_CASE("orthotropic constants come back from the compliance, each in its plac
   CHECK(1 / s(5, 5) == Approx(5e9).epsilon(1e-12));          // xy: G12
 }
 
-TEST_CASE("axes around a line: fibres along axis 1 go round it, or along it, as they are told") {
+TEST_CASE("axes around a line: fibres along axis 1 run around the line or along it") {
   const Material hoop = material(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 2]}}");
   CHECK(hoop.is_wound());
   CHECK(hoop.winding_axis == Eigen::Vector3d::UnitZ());
   const auto modulus = [](const Material& of, const Eigen::Vector3d& place, int axis) {
     return 1 / Matrix6(of.elasticity_at(place).inverse())(axis, axis);
   };
-  CHECK(modulus(hoop, {3, 0, 5}, 1) == Approx(140e9).epsilon(1e-12));  // the direction around the line is y there
-  CHECK(modulus(hoop, {3, 0, 5}, 2) == Approx(10e9).epsilon(1e-12));   // axis 2 along it
+  CHECK(modulus(hoop, {3, 0, 5}, 1) == Approx(140e9).epsilon(1e-12));  // y is the direction around the line
+  CHECK(modulus(hoop, {3, 0, 5}, 2) == Approx(10e9).epsilon(1e-12));   // axis 2 is along the line
   CHECK(modulus(hoop, {3, 0, 5}, 0) == Approx(9e9).epsilon(1e-12));
   CHECK(modulus(hoop, {1, -2, 0}, 0) == Approx(140e9).epsilon(1e-12));
   const Material lengthwise =
@@ -79,7 +79,7 @@ TEST_CASE("axes around a line: fibres along axis 1 go round it, or along it, as 
   CHECK_THAT(message(laminate + ", axes: 3}"), Contains("axes"));
 }
 
-TEST_CASE("axes turn a material: along the body's y it is as stiff as along its own 1") {
+TEST_CASE("axes turn a material: along y of the body it is as stiff as along its own axis 1") {
   const Material turned = material(laminate + ", axes: {x: [0, 1, 0], y: [-1, 0, 0]}}");
   const Matrix6 s = turned.elasticity.inverse();
   CHECK(1 / s(1, 1) == Approx(140e9).epsilon(1e-12));
@@ -94,7 +94,7 @@ TEST_CASE("a rotation of the elastic constants is the rotation of the fourth-ord
   const Matrix6 c = random.positive_matrix(6);
   const Eigen::Matrix3d r = Eigen::AngleAxisd(1.1, random.vector_of_length(1)).toRotationMatrix();
   const Matrix6 turned = rotate_elasticity(c, r);
-  // Component by component, with all pairs of equal indices kept apart.
+  // The rotation is written out for all components, without the symmetry of the index pairs.
   const auto voigt = [](int i, int j) { return i == j ? i : 6 - i - j; };
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b) {
@@ -111,7 +111,7 @@ TEST_CASE("a rotation of the elastic constants is the rotation of the fourth-ord
   CHECK((rotate_elasticity(steel.elasticity, r) - steel.elasticity).norm() < 1e-12 * steel.elasticity.norm());
 }
 
-TEST_CASE("anisotropic constants are the matrix as written") {
+TEST_CASE("anisotropic constants are the matrix of the file") {
   const Material steel = material("{young: 210e9, poisson: 0.3, density: 7850}");
   std::string rows;
   for (int i = 0; i < 6; ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("anisotropic constants are the matrix as written") {
       Contains("not positive definite"));
 }
 
-TEST_CASE("impossible materials are refused with key and range") {
+TEST_CASE("impossible materials are refused with their key and its range") {
   CHECK_THAT(message("{young: 0, poisson: 0.3, density: 7850}"),
              Catch::StartsWith("rod.yaml:1: young: expected a number greater than 0"));
   CHECK_THAT(message("{young: 210e9, poisson: 0.5, density: 7850}"),
@@ -148,7 +148,7 @@ TEST_CASE("impossible materials are refused with key and range") {
              Contains("expected the keys of one kind of material"));
   CHECK_THAT(message("{young: 210e9, poisson: 0.3, density: 7850, axes: {x: [1, 0, 0], y: [0, 1, 0]}}"),
              Contains("'axes' is not a key of an isotropic material"));
-  // nu12 nu21 > 1.
+  // These constants have nu12 nu21 > 1.
   CHECK_THAT(
       message("{E1: 1e9, E2: 1e9, E3: 1e9, nu12: 1.1, nu13: 0, nu23: 0, G12: 1e9, G13: 1e9, G23: 1e9, density: 1}"),
       Catch::StartsWith("rod.yaml:1: ") && Contains("not positive definite"));
@@ -170,12 +170,12 @@ TEST_CASE("materials have units") {
         "rod.yaml:1: density: expected a value in kg/m^3, found one in 'kN', which measures something else");
 }
 
-TEST_CASE("a material that lacks constants of its kind is told one of them") {
+TEST_CASE("the message about a material that lacks constants of its kind names one of them") {
   CHECK_THAT(message("{density: 1}"), Catch::EndsWith("is missing"));
   CHECK_THAT(message("{E2: 1e9, density: 1}"), Catch::EndsWith("is missing"));
 }
 
-TEST_CASE("values that no solid has give a warning, with key and range") {
+TEST_CASE("values that no solid has give a warning with their key and its range") {
   const auto warnings = [](const std::string& text) {
     const YamlValue material = YamlValue::parse(text, "rod.yaml");
     warn_of_material(material);

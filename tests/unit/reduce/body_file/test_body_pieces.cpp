@@ -1,4 +1,4 @@
-// `pieces` in body files: planes, lines and arcs, and the messages about wrong ones.
+// Tests of `pieces` in body files: planes, lines and arcs, and the messages about wrong ones.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -36,7 +36,7 @@ std::string message(const std::string& pieces) {
 
 }  // namespace
 
-TEST_CASE("planes by point and normal, and normal to an axis") {
+TEST_CASE("planes are given by point and normal, or normal to an axis") {
   const BodyFile body = read(
       "{planes: [{point: [1, 2, 3], normal: [0, 0, 2], name: waist}, {axis: y, at: 0.5}, {axis: x, at: [1, "
       "\"parts/2\"]}]"
@@ -59,12 +59,12 @@ TEST_CASE("planes by point and normal, and normal to an axis") {
   CHECK(read("{planes: {axis: z, at: 1}}").pieces->tie == Tie::rigid);
 }
 
-TEST_CASE("equal parts of a line and of an arc") {
+TEST_CASE("lines and arcs are cut into equal parts") {
   const std::vector<CutPlane> line = read("{count: parts, line: {from: [1, 0, 0], to: [1, 10, 0]}}").mesh.cuts;
   REQUIRE(line.size() == 4);
   CHECK((line[2].point - Eigen::Vector3d(1, 6, 0)).norm() < 1e-14);
   CHECK(line[2].normal == Eigen::Vector3d(0, 1, 0));
-  // From the origin along x, a quarter of a circle of radius 2 to -y.
+  // The arc starts at the origin along x, and is a quarter of a circle of radius 2 towards -y.
   const std::vector<CutPlane> arc =
       read("{count: 3, arc: {from: [0, 0, 0], centre: [0, -2, 0], axis: [0, 0, -1], angle: \"pi/2\"}}").mesh.cuts;
   REQUIRE(arc.size() == 2);
@@ -73,7 +73,7 @@ TEST_CASE("equal parts of a line and of an arc") {
   CHECK((arc[0].normal - Eigen::Vector3d(std::cos(third), -std::sin(third), 0)).norm() < 1e-14);
 }
 
-TEST_CASE("places of cuts have units") {
+TEST_CASE("positions of cuts have units") {
   const std::vector<CutPlane> cuts =
       read("{planes: [{point: [1 mm, 0, 0], normal: [1, 0, 0]}, {axis: x, at: [3 cm, 4 in]}]}").mesh.cuts;
   REQUIRE(cuts.size() == 3);
@@ -96,7 +96,7 @@ TEST_CASE("a plane has the keys of its kind") {
              Contains("'normal' is not a key of planes normal to an axis"));
 }
 
-TEST_CASE("what cannot be a cut is refused with its place") {
+TEST_CASE("impossible cuts are refused with their place in the file") {
   CHECK_THAT(message("{planes: []}"), Contains("rod.yaml:9: pieces.planes: expected at least one plane"));
   CHECK_THAT(message("{plane: [{axis: x, at: 1}]}"), Contains("did you mean 'planes'?"));
   CHECK_THAT(message("{planes: [{point: [0, 0, 0], normal: [0, 0, 0]}]}"), Contains("pieces.planes[1].normal"));

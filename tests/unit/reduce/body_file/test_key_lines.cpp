@@ -1,4 +1,4 @@
-// Lines of the keys in a body file, for messages that arise after it was read.
+// Tests of the lines of keys in a body file, for messages that arise after it was read.
 #include <catch2/catch.hpp>
 
 #include "reduce/body_file/key_lines.hpp"
@@ -28,7 +28,7 @@ std::string line_of(const std::string& subject) {
 
 }  // namespace
 
-TEST_CASE("a key stands on the line of its value") {
+TEST_CASE("the line of a key is that of its value") {
   CHECK(line_of("geometry") == "models/rod.yaml:1: wrong");
   CHECK(line_of("interfaces.big_end") == "models/rod.yaml:3: wrong");
   CHECK(line_of("interfaces.small.end") == "models/rod.yaml:5: wrong");
@@ -38,7 +38,7 @@ TEST_CASE("a key stands on the line of its value") {
   CHECK(line_of("modes") == "models/rod.yaml:10: wrong");
 }
 
-TEST_CASE("a key that is not in the file has the line of the nearest one around it") {
+TEST_CASE("a key that is not in the file has the line of the innermost key around it") {
   CHECK(line_of("interfaces.big_end.position") == "models/rod.yaml:3: wrong");
   CHECK(line_of("interfaces.small.end.surface[3].cylinder.radius") == "models/rod.yaml:6: wrong");
   CHECK(line_of("modes.below") == "models/rod.yaml:10: wrong");
@@ -50,7 +50,7 @@ TEST_CASE("without a key around it, a message has no line") {
   CHECK(KeyLines().located("modes", "wrong") == "wrong");
 }
 
-TEST_CASE("a key stands where the reader of the file finds it") {
+TEST_CASE("the line of a key is the one that the reader of the file finds") {
   const YamlValue file = YamlValue::parse(text, "rod.yaml");
   const YamlValue surface = file.at("interfaces").at("small.end").at("surface");
   for (const YamlValue& value : {file.at("modes"), file.at("inertia_relief"), surface, surface.at(1).at("box")})

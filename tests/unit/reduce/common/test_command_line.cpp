@@ -41,7 +41,7 @@ std::string why_wrong(const std::vector<const char*>& arguments) {
 
 }  // namespace
 
-TEST_CASE("Common options have their defaults and take values") {
+TEST_CASE("Common options have defaults and accept values") {
   const Parsed plain = parse({"body.yaml"});
   CHECK(plain.goes_on);
   CHECK(plain.options.threads == bielle::available_processors());
@@ -58,7 +58,7 @@ TEST_CASE("Help and version end the program without error") {
   CHECK_FALSE(parse({"--version"}).goes_on);
 }
 
-TEST_CASE("Wrong command lines are explained in one line") {
+TEST_CASE("The message about a wrong command line is one line") {
   CHECK(why_wrong({"body.yaml", "--thread", "3"}) ==
         "'--thread' is not an option; did you mean '--threads'? (see bielle-test --help)");
   CHECK_THAT(why_wrong({"body.yaml", "--quit"}), Contains("did you mean '--quiet'?"));

@@ -1,4 +1,4 @@
-// Numbers of things in messages: singular for one only.
+// Tests of counts in messages: the singular is used for one only.
 #include <cstddef>
 
 #include <catch2/catch.hpp>

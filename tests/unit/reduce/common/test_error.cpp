@@ -10,14 +10,14 @@
 using bielle::did_you_mean;
 using bielle::nearest_name;
 
-TEST_CASE("The nearest name is found through every kind of slip") {
+TEST_CASE("The nearest name is found after every kind of typing error") {
   const std::vector<std::string> keys = {"damping", "density", "poisson", "rho", "young"};
   CHECK(nearest_name("dampng", keys) == "damping");    // left out
-  CHECK(nearest_name("dampingg", keys) == "damping");  // one too many
+  CHECK(nearest_name("dampingg", keys) == "damping");  // one letter too many
   CHECK(nearest_name("dawping", keys) == "damping");   // exchanged
-  CHECK(nearest_name("dampign", keys) == "damping");   // swapped: one slip, not two
+  CHECK(nearest_name("dampign", keys) == "damping");   // two letters exchanged count as one error, not two
   CHECK(nearest_name("DAMPING", keys) == "damping");   // case
-  CHECK(nearest_name("rh", keys) == "rho");            // one letter of three
+  CHECK(nearest_name("rh", keys) == "rho");            // one letter of three differs
   CHECK(nearest_name("oyung", keys) == "young");
 }
 
@@ -29,7 +29,7 @@ TEST_CASE("No name is offered when more than a third of the letters differ") {
   CHECK(nearest_name("x", {}).empty());
 }
 
-TEST_CASE("Of several near names the nearest is offered, the first among equals") {
+TEST_CASE("The nearest of several names is offered, the first of equally near ones") {
   CHECK(nearest_name("ratio", std::vector<std::string>{"rations", "ratios"}) == "ratios");
   CHECK(nearest_name("node_c", std::vector<std::string>{"node_a", "node_b"}) == "node_a");
 }
@@ -54,7 +54,7 @@ TEST_CASE("A message offers the nearest name, or the names that exist") {
   CHECK(nearest.find("and 5 more") != std::string::npos);
 }
 
-TEST_CASE("An error about a key keeps it, and begins with it unless it is hidden") {
+TEST_CASE("An error about a key keeps the key, and begins with it unless it is hidden") {
   const bielle::InputError shown("modes.count", "too many"), hidden("modes", "too many", bielle::Subject::hidden);
   CHECK(std::string(shown.what()) == "modes.count: too many");
   CHECK(shown.subject() == "modes.count");
@@ -64,7 +64,7 @@ TEST_CASE("An error about a key keeps it, and begins with it unless it is hidden
   CHECK(bielle::ComputationError("failed").subject().empty());
 }
 
-TEST_CASE("Errors of work about a key get the key; other failures pass") {
+TEST_CASE("Errors of work on a key get the key; other exceptions pass unchanged") {
   CHECK(bielle::about("modes", [] { return 7; }) == 7);
   try {
     bielle::about("modes", [] { throw bielle::InputError("too many"); });
@@ -76,7 +76,7 @@ TEST_CASE("Errors of work about a key get the key; other failures pass") {
   CHECK_THROWS_WITH(bielle::about("modes", [] { throw bielle::ComputationError("failed"); }), "failed");
 }
 
-TEST_CASE("A program's exit status tells a wrong input from a failed computation") {
+TEST_CASE("The exit status distinguishes a wrong input from a failed computation") {
   const auto status = [](int (*body)(int, char**)) { return bielle::run_program("bielle-test", body, 0, nullptr); };
   CHECK(status([](int, char**) { return 0; }) == 0);
   CHECK(status([](int, char**) -> int { throw bielle::InputError("wrong input"); }) == 1);

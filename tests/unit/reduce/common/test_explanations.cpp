@@ -64,31 +64,31 @@ TEST_CASE("Explanations are read from pages") {
   CHECK(read_explanations({"# A page without names\n\n> a quotation\n"}).empty());
 }
 
-TEST_CASE("A message finds its explanation, the one with most letters") {
+TEST_CASE("A message finds its explanation, the longest one that matches") {
   CHECK(name_for("model.yaml:3: t = 0.3 s: the equations are singular at x of node 'a': it has no mass") ==
         "singular-equations");
   CHECK(name_for("the equations are singular at rz of node 'hub': the wheel turns freely") == "singular-wheel");
-  CHECK(name_for("the equations are\n  singular at x: y") == "singular-equations");  // as terminals break lines
+  CHECK(name_for("the equations are\n  singular at x: y") == "singular-equations");  // line breaks of a terminal
   CHECK(name_for("it is cut off: '..' cannot be read") == "none");                   // the order matters
   CHECK(name_for("'rod.step' cannot be read: it is cut off") == "cut-file");
   CHECK(name_for("") == "none");
   CHECK(name_for("the equations are regular") == "none");
 }
 
-TEST_CASE("Names, messages, parts of messages and words are explained") {
+TEST_CASE("Explanations are found by names, messages, parts of messages and words") {
   const std::string text = explain(samples(), "singular-equations");
   CHECK(text ==
         "singular-equations\n\n    the equations are singular at ..: ..\n    nothing determines it\n\n"
         "Cause. A node has no mass.\n\nCure. See the page of masses.\n");
   CHECK(explain(samples(), "  singular-equations \n") == text);
-  CHECK(explain(samples(), "error: Nothing determines  it") == text);  // other capitals: words alone
+  CHECK(explain(samples(), "error: Nothing determines  it") == text);  // with other capitals, words alone are found
   CHECK_THAT(explain(samples(), "wheel"), StartsWith("singular-wheel\n"));
   CHECK_THAT(explain(samples(), "SINGULAR"),
              Contains("singular-equations  ") && Contains("singular-wheel  ") && !Contains("cut-file"));
   CHECK_THAT(explain(samples(), "all"), Contains("singular-equations") && Contains("cut-file"));
 }
 
-TEST_CASE("Texts without an explanation lead to names") {
+TEST_CASE("Texts without an explanation give a list of names") {
   CHECK_THAT(message_of<InputError>([] { explain(samples(), "singular-equation"); }),
              Contains("did you mean 'singular-equations'?") && Contains("`--explain all` lists them"));
   for (const char* text : {"", "   ", "zebra", "7", "..", "\xff\xfe"})

@@ -5,7 +5,7 @@
 using namespace bielle;
 using Eigen::VectorXd;
 
-TEST_CASE("the leading component is the first of the largest, whatever rounding does", "[common]") {
+TEST_CASE("the leading component is the first of the largest ones, independently of rounding", "[common]") {
   VectorXd mode(6);
   mode << 0.1, -2, 0.5, 2, -2, 1;
   for (Eigen::Index k = 0; k < mode.size(); ++k) {

@@ -68,7 +68,7 @@ TEST_CASE("Off a terminal, phases print plain lines") {
   CHECK_THAT(text, Contains("factorisation ...\n") && Contains("\nfactorisation: 0.") && Contains("modes: 0.0 s\n"));
   CHECK_THAT(text, Contains("a note\n") && Contains("warning: beware\n"));
   CHECK(text.find('\r') == std::string::npos);
-  CHECK(text.find('%') == std::string::npos);  // nothing between start and end of a short phase
+  CHECK(text.find('%') == std::string::npos);  // a short phase prints nothing between its start and its end
 }
 
 TEST_CASE("On a terminal, a phase is one line that is redrawn, with the time left") {
@@ -77,12 +77,12 @@ TEST_CASE("On a terminal, a phase is one line that is redrawn, with the time lef
   std::size_t frames = 0;
   for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at + 1)) ++frames;
   CHECK(frames >= 2);
-  CHECK(frames <= 6);  // 0.33 s at ten frames a second, and the first of each phase
+  CHECK(frames <= 6);  // lines in 0.33 s at ten a second, and the first of each phase
 }
 
 TEST_CASE("A quiet run prints warnings only") { CHECK(printed_by_work(false, true) == "warning: beware\n"); }
 
-TEST_CASE("A warning about a key begins with it, and with its place where this is known") {
+TEST_CASE("A warning about a key begins with the key, and with its place if this is known") {
   const auto printed_with = [](const Progress::Locator& located) {
     return printed(false, [&] {
       Progress progress(true, located);
@@ -100,7 +100,7 @@ TEST_CASE("A warning about a key begins with it, and with its place where this i
         "warning: <mesh> mesh: coarse\nwarning: <damping> weak\nwarning: <> plain\nwarning: beware\n");
 }
 
-TEST_CASE("Warnings of a part of the work have its name, and nothing else of it is shown") {
+TEST_CASE("Warnings of a part of the work begin with its name, and its progress is not shown") {
   CHECK(printed(false, [] {
           const auto located = [](const std::string& subject, const std::string& message) {
             return "<" + subject + "> " + message;
@@ -115,7 +115,7 @@ TEST_CASE("Warnings of a part of the work have its name, and nothing else of it 
         }) == "warning: <mesh> bar.2: mesh: coarse\nwarning: bar.2: beware\n");
 }
 
-TEST_CASE("An exception leaves the bar's line, so that its message starts on a new one") {
+TEST_CASE("An exception ends the line of the progress bar, so that its message starts on a new line") {
   const std::string text = printed(true, [] {
     try {
       Progress progress;
@@ -128,7 +128,7 @@ TEST_CASE("An exception leaves the bar's line, so that its message starts on a n
   CHECK_THAT(text, Contains("\r\nmessage"));
 }
 
-TEST_CASE("Each phase is kept with its time and memory") {
+TEST_CASE("Time and memory of each phase are recorded") {
   Progress progress(true);
   progress.update(0.5);  // no phase runs: nothing happens
   work(progress);

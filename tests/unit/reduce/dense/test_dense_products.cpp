@@ -1,4 +1,4 @@
-// Products of dense matrices against Eigen's own, on both sides of the size from which BLAS computes them.
+// Compares products of dense matrices with those of Eigen, below and above the size from which BLAS is used.
 #include <array>
 
 #include <catch2/catch.hpp>

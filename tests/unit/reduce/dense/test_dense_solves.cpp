@@ -77,17 +77,17 @@ TEST_CASE("dense solves: symmetric matrices, definite or not", "[common]") {
   MatrixXd indefinite = A;
   indefinite.row(2) *= -1;
   indefinite.col(2) *= -1;
-  CHECK(is_positive_definite(indefinite));  // congruent to A
+  CHECK(is_positive_definite(indefinite));  // congruent to A, with the same inertia
   indefinite(2, 2) *= -1;
   CHECK_FALSE(is_positive_definite(indefinite));
   indefinite(0, 0) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(is_positive_definite(indefinite));
-  // Semidefinite: the part of b that it reaches
+  // A semidefinite matrix solves for the part of b in its range.
   const MatrixXd half = G.leftCols(3), S = half * half.transpose(), reached = S * b;
   CHECK((S * solve_symmetric(S, reached) - reached).norm() < 1e-8 * reached.norm());
 }
 
-TEST_CASE("dense solves: an inverse where there is one", "[common]") {
+TEST_CASE("dense solves: the inverse of a regular matrix", "[common]") {
   MatrixXd A = general_matrix(5);
   const auto inverse = regular_inverse(A);
   REQUIRE(inverse);

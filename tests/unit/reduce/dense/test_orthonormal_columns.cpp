@@ -1,4 +1,4 @@
-// Orthonormal columns that span those of a matrix: real and complex, of full and of lower rank.
+// Tests of orthonormal columns that span the columns of a matrix: real and complex, of full and of lower rank.
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -14,7 +14,7 @@ namespace test_orthonormal_columns {
 using namespace bielle;
 using Complex = std::complex<double>;
 
-/// Returns numbers without a relation to each other.
+/// Returns pseudo-random numbers.
 Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index columns) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index k) {
     const auto along = static_cast<double>(i), across = static_cast<double>(k);
@@ -29,7 +29,7 @@ Eigen::MatrixXcd complex_numbers(Eigen::Index rows, Eigen::Index columns) {
   return result;
 }
 
-/// Returns the largest entry of Q^H Q - I, and of the part of A normal to Q.
+/// Returns the largest entry of Q^H Q - I and of the part of A orthogonal to Q.
 template <class Matrix>
 double worst(const Matrix& A, const Matrix& Q) {
   const Matrix gram = Q.adjoint().lazyProduct(Q);

@@ -5,7 +5,7 @@
 using namespace bielle;
 using Eigen::MatrixXd;
 
-TEST_CASE("tall products: those of Eigen, for any number of threads and rows", "[spectral]") {
+TEST_CASE("tall products equal those of Eigen, for any number of threads and rows", "[spectral]") {
   for (const int rows : {1, 7, 513, 9001}) {
     for (const int threads : {1, 2, 3}) {
       CAPTURE(rows, threads);
@@ -18,7 +18,7 @@ TEST_CASE("tall products: those of Eigen, for any number of threads and rows", "
       combine_columns(Q, C, threads);
       CHECK(Q.leftCols(5).isApprox(A * C, 1e-13));
       CHECK(Q.rightCols(8) == A.rightCols(8));
-      const MatrixXd many = MatrixXd::Random(rows, 40), weights = MatrixXd::Random(13, 40);  // too many for registers
+      const MatrixXd many = MatrixXd::Random(rows, 40), weights = MatrixXd::Random(13, 40);  // more than registers hold
       CHECK(tall_inner_products(A, many, threads).isApprox(A.transpose() * many, 1e-13));
       Y = many;
       add_tall_product(Y, A, weights, 1, threads);
@@ -27,7 +27,7 @@ TEST_CASE("tall products: those of Eigen, for any number of threads and rows", "
   }
 }
 
-TEST_CASE("tall products: nothing to multiply", "[spectral]") {
+TEST_CASE("tall products of empty matrices", "[spectral]") {
   MatrixXd A(100, 0), Y = MatrixXd::Ones(100, 2);
   CHECK(tall_inner_products(A, Y, 2).size() == 0);
   add_tall_product(Y, A, MatrixXd(0, 2), 1, 2);

@@ -1,4 +1,4 @@
-// Data written at one end arrive at the other, and a closed end is noticed.
+// Tests that data written at one end of a channel arrive at the other, and that a closed end is noticed.
 #include <array>
 #include <csignal>
 #include <string>
@@ -38,7 +38,7 @@ TEST_CASE("numbers, texts and outcomes pass a channel") {
   CHECK(outcome.message == "why");
 }
 
-TEST_CASE("shares are unpacked as they were packed") {
+TEST_CASE("parts of a mesh are unpacked as they were packed") {
   InteriorShare share{{3, -1, 4}, {0, 0, 2, 2}, {7, 8}, {0.5, -2}};
   Packing packing;
   packing(share);
@@ -50,7 +50,7 @@ TEST_CASE("shares are unpacked as they were packed") {
   CHECK(copy.weights == share.weights);
 }
 
-TEST_CASE("the end of the other side is told from a broken message") {
+TEST_CASE("a closed channel and an incomplete message are told apart") {
   std::signal(SIGPIPE, SIG_IGN);
   const auto ends = connected();
   Channel here(ends[0], "the ranks");

@@ -1,4 +1,5 @@
-// Division of cells: each once, evenly, and the parts together are the solid.
+// Tests of the division of cells: each cell is in one part, parts have equal sizes, and their matrices add up to the
+// solid's.
 #include <algorithm>
 #include <set>
 
@@ -21,7 +22,7 @@ struct Bar {
 
 }  // namespace
 
-TEST_CASE("each cell is in one part, and parts are of one size but for the first") {
+TEST_CASE("each cell is in one part, and all parts except the first have one size") {
   const Bar box;
   const auto parts = GENERATE(1, 2, 3, 7);
   std::multiset<int> seen;
@@ -35,7 +36,7 @@ TEST_CASE("each cell is in one part, and parts are of one size but for the first
   }
   CHECK(seen.size() == static_cast<std::size_t>(box.solid.cells.size()));
   CHECK(std::set<int>(seen.begin(), seen.end()).size() == seen.size());
-  CHECK(most - least <= 3);  // a cell for each halving
+  CHECK(most - least <= 3);  // the first part may have one cell more for each halving
   if (parts > 1) CHECK(std::abs(3 * static_cast<int>(divided.front().size()) - static_cast<int>(most)) <= 9);
 }
 
@@ -43,11 +44,11 @@ TEST_CASE("a body of two parts is divided across its length") {
   const Bar box;
   const auto parts = divided_cells(box.solid, 2);
   const SolidPart low = part_of(box.solid, parts[0], {}), high = part_of(box.solid, parts[1], {});
-  CHECK(low.share.points.row(0).maxCoeff() <= 2.0 / 3 + 1e-12);  // a quarter: one and a half of six slices
+  CHECK(low.share.points.row(0).maxCoeff() <= 2.0 / 3 + 1e-12);  // a quarter is one and a half of six slices
   CHECK(high.share.points.row(0).minCoeff() >= 1.0 / 3 - 1e-12);
 }
 
-TEST_CASE("more parts than cells leave some without any") {
+TEST_CASE("if there are more parts than cells, some are empty") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}, false});
   const Solid solid = make_solid(mesh, {{"steel", Material::isotropic(2e11, 0.3, 7800)}}, {{"all", "steel"}});
   const auto parts = divided_cells(solid, 20);
@@ -56,7 +57,7 @@ TEST_CASE("more parts than cells leave some without any") {
   for (const std::vector<int>& cells : parts) CHECK(part_of(solid, cells, {}).share.material_of.size() == cells.size());
 }
 
-TEST_CASE("matrices of the parts add up to those of the solid, coated and lumped or not") {
+TEST_CASE("matrices of the parts add up to those of the solid, with and without coatings and lumped masses") {
   Bar box;
   for (const char* name : {"x0", "y1", "z0"})
     box.solid.coatings.push_back({surface_group(box.mesh, name), name[0] == 'x' ? 3000.0 : 500.0});

@@ -1,4 +1,4 @@
-// Fields given by formulas, at the points of a mesh.
+// Values of fields that are given by formulas, at the points of a mesh.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace bielle::test {
 
-/// Returns u(x) of all points, one below the other.
+/// Returns u(x) at all points, stacked in one column.
 inline RowMatrix field(const reduce::Mesh& mesh, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& u) {
   RowMatrix result(3 * mesh.point_count(), 1);
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) result.block<3, 1>(3 * a, 0) = u(mesh.points.col(a));

@@ -51,17 +51,17 @@ std::vector<int> interior(const Mesh& flat) {
 
 }  // namespace
 
-TEST_CASE("Rigid motions are in the kernel of the stiffness, on straight and curved cells of both orders") {
+TEST_CASE("Rigid motions cause no force, on straight and curved cells of both orders") {
   const bool quadratic = GENERATE(true, false);
   const bool bent = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 3, 2}, quadratic}, bent ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
   const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.mesh), 2);
-  // Each row sums some hundred entries times displacements of order one.
+  // Each row is a sum of some hundred entries times displacements of order one.
   CHECK(k.multiply(rigid_motions(mesh)).cwiseAbs().maxCoeff() < 1e-12 * largest_entry(k));
 }
 
-TEST_CASE("Any homogeneous strain is exact on distorted and on curved meshes: no force inside, the right energy") {
+TEST_CASE("Homogeneous strain is exact on distorted and on curved meshes: no inner forces, the exact energy") {
   const int variant = GENERATE(0, 1, 2);  // distorted straight tet10, curved tet10, tet4
   const test::Box box{{1, 1, 1}, {3, 3, 3}, variant != 2};
   const Mesh flat = test::box_mesh(box);
@@ -82,8 +82,8 @@ TEST_CASE("Any homogeneous strain is exact on distorted and on curved meshes: no
   CHECK((u.transpose() * force)(0, 0) == Approx(strain.dot(wood().elasticity * strain) * volume).epsilon(1e-12));
 }
 
-TEST_CASE("Quadratic cells carry pure bending exactly on a distorted straight-sided mesh") {
-  // Saint-Venant bending about z with unit curvature: sigma_xx = -E y, all other stresses zero.
+TEST_CASE("Quadratic cells represent pure bending exactly on a distorted mesh with straight sides") {
+  // The field is Saint-Venant's bending about z with unit curvature: sigma_xx = -E y, all other stresses are zero.
   const double nu = 0.3, young = 2e5;
   const test::Box box{{1, 1, 1}, {3, 3, 3}};
   const Mesh mesh = test::distorted_box_mesh(box, 0.25);
@@ -100,7 +100,7 @@ TEST_CASE("Quadratic cells carry pure bending exactly on a distorted straight-si
   CHECK((u.transpose() * force)(0, 0) == Approx(young / 3).epsilon(1e-12));  // int E y^2 dV
 }
 
-TEST_CASE("The mass matrix reproduces mass and moments of inertia, on curved cells as well") {
+TEST_CASE("The mass matrix has the mass and moments of inertia of the body, on curved cells as well") {
   const bool bent = GENERATE(true, false);
   const bool quadratic = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 3}, quadratic}, bent && quadratic ? curved : Map{});
@@ -119,7 +119,7 @@ TEST_CASE("The mass matrix reproduces mass and moments of inertia, on curved cel
   CHECK((rigid - expected).norm() < 1e-13 * expected.norm());
 }
 
-TEST_CASE("The mass matrix of straight cells integrates all products of the fields that they hold") {
+TEST_CASE("The mass matrix of straight cells integrates exactly all products of fields that they represent") {
   const bool quadratic = GENERATE(true, false);
   const test::Box box{{1, 1, 1}, {2, 2, 2}, quadratic};
   const Mesh mesh = test::distorted_box_mesh(box, 0.25);
@@ -153,7 +153,7 @@ TEST_CASE("Matrices do not depend on the number of threads") {
   CHECK(assemble_mass(solid, graph, 1).values == assemble_mass(solid, graph, 2).values);
 }
 
-TEST_CASE("The geometric stiffness of a homogeneous stress does the work of that stress on second-order strains") {
+TEST_CASE("The energy of the geometric stiffness is the work of the stress on second-order strains") {
   const bool bent = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}}, bent ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
@@ -166,10 +166,10 @@ TEST_CASE("The geometric stiffness of a homogeneous stress does the work of that
   const Eigen::Matrix3d stress = tensor_of(Vector6(wood().elasticity * strain_of(h0)));
   const double volume = mass_properties(solid).volume;
   CHECK(work[0](0, 0) == Approx(volume * (stress * h.transpose() * h).trace()).epsilon(1e-11));
-  CHECK(std::abs(work[1](0, 0)) < 1e-3);  // a rotation has no stress: 1e-13 of E = 12e9
+  CHECK(std::abs(work[1](0, 0)) < 1e-3);  // a rotation has no stress, up to 1e-13 of E = 12e9
 }
 
-TEST_CASE("A cell that is turned inside out is named with its place") {
+TEST_CASE("An inverted cell is named with its place") {
   Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}});
   std::swap(mesh.blocks[0].nodes(0, 2), mesh.blocks[0].nodes(1, 2));
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});

@@ -1,4 +1,4 @@
-// Internal modes of cells of order 1, and the mean strain of cells of all types that are not simplices.
+// Tests of the internal modes of cells of order 1, and of the mean strain of all types of cells except simplices.
 #include <cmath>
 #include <vector>
 
@@ -29,16 +29,16 @@ Eigen::MatrixXd stiffness_of_cell(CellType type, const Eigen::Matrix3Xd& points,
 
 }  // namespace
 
-TEST_CASE("The stiffness of a cell does not depend on the node with which its list begins") {
+TEST_CASE("The stiffness of a cell does not depend on its first node") {
   struct Numbering {
     CellType type;
-    std::vector<int> nodes;  ///< the same cell from another node on, or along other edges
+    std::vector<int> nodes;  ///< the same cell with another first node, or with other edges as its axes
   };
   for (const Numbering& numbering :
        {Numbering{CellType::hex8, {1, 2, 3, 0, 5, 6, 7, 4}}, Numbering{CellType::hex8, {0, 3, 7, 4, 1, 2, 6, 5}},
         Numbering{CellType::wedge6, {1, 2, 0, 4, 5, 3}}, Numbering{CellType::wedge6, {3, 5, 4, 0, 2, 1}}}) {
     CAPTURE(cell_name(numbering.type), numbering.nodes);
-    // The Jacobian varies, but not its determinant: the integrands are polynomials, and integrated exactly.
+    // The Jacobian varies and its determinant does not: the integrands are polynomials, which are integrated exactly.
     Eigen::Matrix3Xd x = local_nodes(numbering.type);
     x.row(0) += 0.2 * x.row(1).cwiseProduct(x.row(2)) + 0.3 * x.row(1);
     const Eigen::VectorXi nodes = Eigen::Map<const Eigen::VectorXi>(numbering.nodes.data(), x.cols());
@@ -49,7 +49,8 @@ TEST_CASE("The stiffness of a cell does not depend on the node with which its li
 }
 
 TEST_CASE("Rectangular hexahedra of order 1 have the stress of pure bending exactly") {
-  // u of a beam with the curvature k in the plane of x and y, with Poisson's contraction: stress E k y along x alone.
+  // u is the displacement of a beam with curvature k in the plane of x and y and with lateral contraction: the only
+  // stress is E k y along x.
   const double k = 0.01, poisson = 0.3;
   const Mesh mesh = test::cell_box(CellType::hex8, cell_sides, {2, 3, 2});
   const test::SolidModel model(mesh, soft_steel);

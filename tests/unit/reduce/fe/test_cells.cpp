@@ -1,4 +1,4 @@
-// Solid cells of all types: completeness, patch test, invariance, eigenvalues of a single cell.
+// Tests of solid cells of all types: completeness, patch test, invariance, eigenvalues of a single cell.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -97,7 +97,7 @@ TEST_CASE("Cells of all types have the mass, centre, inertia and surface of the 
   CHECK((found.centre - extent / 2).norm() < 1e-13);
   const Eigen::Array3d squares = extent.array().square();
   CHECK((found.inertia.diagonal().array() - found.mass / 12 * (squares.sum() - squares)).abs().maxCoeff() < 1e-12);
-  // The mass matrix contains the same mass.
+  // The mass matrix has the same mass.
   const RowMatrix ones = RowMatrix::Ones(mesh.point_count(), 1);
   CHECK(model.mass.multiply(ones, 1).sum() == Approx(found.mass).epsilon(1e-13));
   for (const auto& [name, area] : {std::pair<std::string, double>{"x1", extent.y() * extent.z()},
@@ -135,18 +135,18 @@ TEST_CASE("Cells of all types pass the patch test: constant strain in distorted 
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a)
     CHECK((stress.middleRows<6>(6 * a) - expected).norm() < 1e-10 * expected.norm());
   CHECK((mean_strain(model.solid, u) - strain).norm() < 1e-12 * strain.norm());
-  // The product is twice the energy, and a constant stress has no error.
+  // The product is twice the energy; a constant stress has no error.
   CHECK((u.transpose() * forces)(0, 0) == Approx(extent.prod() * strain.dot(expected)).epsilon(1e-12));
   CHECK(estimate_mesh_error(model.solid, u).relative(0) < 1e-6);
 }
 
-TEST_CASE("A single distorted cell of any type has six rigid motions and no other free ones") {
+TEST_CASE("A single distorted cell of any type has six motions without energy, the rigid ones") {
   const CellType type = GENERATE(from_range(solid_types()));
   CAPTURE(cell_name(type));
   const CellInfo& cell = cell_info(type);
   Mesh mesh;
   Eigen::MatrixXd x = local_nodes(type);
-  for (Eigen::Index a = 0; a < x.cols(); ++a)  // bilinear terms: straight edges that are not parallel
+  for (Eigen::Index a = 0; a < x.cols(); ++a)  // bilinear terms keep edges straight, but not parallel
     x.col(a) += 0.1 * Eigen::Vector3d(x(1, a) * x(2, a), 0.5 * x(0, a) * x(2, a), -x(0, a) * x(1, a)) +
                 Eigen::Vector3d(0.3 * x(1, a), 0, 0.2 * x(0, a));
   mesh.points = x;
@@ -175,7 +175,7 @@ TEST_CASE("A single distorted cell of any type has six rigid motions and no othe
   CHECK(masses.minCoeff() > 0);
 }
 
-TEST_CASE("Plain and reduced integration: hex8 and wedge6 are stiffer, hex20 has six hourglass modes") {
+TEST_CASE("Plain integration stiffens hex8 and wedge6, reduced integration gives hex20 six hourglass modes") {
   const auto values = [](CellType type, Integration integration) {
     const Mesh mesh = cell_box(type, extent, {1, 1, 1});
     const Solid solid = make_solid(mesh, {{"m", steel}}, {{"all", "m"}}, integration);
@@ -193,12 +193,12 @@ TEST_CASE("Plain and reduced integration: hex8 and wedge6 are stiffer, hex20 has
                         reduced = values(CellType::hex20, Integration::reduced);
   CHECK((values(CellType::hex20, Integration::plain) - standard).norm() < 1e-12);
   CHECK(standard(6) > 1e-3);
-  // Eight points see 48 strains of the 54 that 60 displacements without rigid motions have.
+  // 60 displacements without six rigid motions leave 54 deformations, of which 48 have strain at the eight points.
   CHECK(reduced.head<12>().cwiseAbs().maxCoeff() < 1e-12);
   CHECK(reduced(12) > 1e-3);
 }
 
-TEST_CASE("Stiffness, stress and geometric stiffness of all types turn with the body") {
+TEST_CASE("Stiffness, stress and geometric stiffness of all types rotate with the body") {
   const Cells cells = GENERATE(from_range(all_cells()));
   CAPTURE(cells.name);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
@@ -226,7 +226,7 @@ TEST_CASE("Stiffness, stress and geometric stiffness of all types turn with the 
 }
 
 TEST_CASE("The geometric stiffness of constant stress is the same for all types") {
-  // int tr(H^T s H') dV with the constant gradient of u, and a constant stress.
+  // The energy is int tr(H^T s H') dV with the constant gradient H of u and a constant stress s.
   const Cells cells = GENERATE(from_range(all_cells()));
   CAPTURE(cells.name);
   const Mesh mesh = cells.distorted_box({2, 1, 2}, 0.1);

@@ -22,7 +22,7 @@ TEST_CASE("The compliance of an isotropic material is that of Hooke's law") {
   CHECK(steel.density == 7850);
 }
 
-TEST_CASE("An orthotropic material has the moduli and contractions that were given") {
+TEST_CASE("An orthotropic material has the given moduli and Poisson's ratios") {
   const Eigen::Vector3d young(140e9, 10e9, 9e9), poisson(0.4, 0.3, 0.28), shear(3e9, 4e9, 5e9);
   const Material ply = Material::orthotropic(young, poisson, shear, 1600);
   const Eigen::Matrix<double, 6, 6> s = ply.elasticity.inverse();
@@ -38,7 +38,7 @@ TEST_CASE("An orthotropic material has the moduli and contractions that were giv
   CHECK((isotropic.elasticity - Material::isotropic(2.6, 0.3, 1).elasticity).norm() < 1e-14);
 }
 
-TEST_CASE("Impossible materials are refused with the reason") {
+TEST_CASE("Impossible materials are refused with a reason") {
   CHECK_THROWS_WITH(Material::isotropic(0, 0.3, 1), Contains("young must be positive"));
   CHECK_THROWS_WITH(Material::isotropic(1, 0.5, 1), Contains("poisson must lie between -1 and 0.5"));
   CHECK_THROWS_WITH(Material::isotropic(1, -1, 1), Contains("poisson"));
@@ -53,7 +53,7 @@ TEST_CASE("Impossible materials are refused with the reason") {
   CHECK_THROWS_AS(Material::anisotropic(c, 1), InputError);
 }
 
-TEST_CASE("Six components and tensors correspond") {
+TEST_CASE("Six components and tensors describe the same stress and strain") {
   const Eigen::Matrix3d h = Eigen::Matrix3d::Random();
   const Material steel = Material::isotropic(2.6, 0.3, 1);
   const Vector6 stress = steel.elasticity * strain_of(h);

@@ -19,32 +19,32 @@ namespace {
 constexpr double young = 2e5, nu = 0.3;
 const Material material = Material::isotropic(young, nu, 1);
 
-/// Saint-Venant bending about z with unit curvature: sigma_xx = -E y alone.
+/// Saint-Venant's bending about z with unit curvature, whose only stress is sigma_xx = -E y.
 Eigen::Vector3d bending(const Eigen::Vector3d& x) {
   return {-x.x() * x.y(), (x.x() * x.x() + nu * (x.y() * x.y() - x.z() * x.z())) / 2, nu * x.y() * x.z()};
 }
 
 }  // namespace
 
-TEST_CASE("What the cells can show has no mesh error, on a distorted mesh as well") {
+TEST_CASE("Fields that the cells represent have no mesh error, on a distorted mesh as well") {
   const Mesh quadratic = test::distorted_box_mesh({{1, 1, 1}, {3, 3, 3}}, 0.25);
   const Mesh linear = test::distorted_box_mesh({{1, 1, 1}, {3, 3, 3}, false}, 0.25);
   const auto stretch = [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.x() + 2 * x.y(), -x.z(), 3 * x.x()); };
   const auto error = [](const Mesh& mesh, const RowMatrix& u) {
     return estimate_mesh_error(make_solid(mesh, {{"m", material}}, {{"all", "m"}}), u, 2).relative(0);
   };
-  // The square of the error is a sum of roundings of 1e-16; terms that regular meshes leave undetermined are stabilised
+  // The square of the error is a sum of roundings of 1e-16; terms that a regular mesh does not determine are stabilised
   // by 1e-9.
   CHECK(error(quadratic, field(quadratic, bending)) < 1e-6);
   CHECK(error(linear, field(linear, stretch)) < 1e-6);
-  CHECK(error(linear, field(linear, bending)) > 0.1);  // one strain in each cell
+  CHECK(error(linear, field(linear, bending)) > 0.1);  // these cells have constant strain
   CHECK(
       estimate_mesh_error(make_solid(linear, {{"m", material}}, {{"all", "m"}}), RowMatrix(3 * linear.point_count(), 0))
           .relative.size() == 0);
   CHECK(error(linear, field(linear, [](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, 0); })) == 0);
 }
 
-TEST_CASE("A jump of stress between two materials is no mesh error") {
+TEST_CASE("A jump of stress between two materials is not a mesh error") {
   Mesh mesh = test::box_mesh({{4, 1, 1}, {4, 2, 2}});
   Group stiff{3, {{CellType::tet10, {}}}, {}};
   for (Eigen::Index e = 0; e < mesh.blocks[0].nodes.cols(); ++e)
@@ -53,15 +53,15 @@ TEST_CASE("A jump of stress between two materials is no mesh error") {
   mesh.groups["stiff"] = stiff;
   const Solid solid = make_solid(mesh, {{"a", Material::isotropic(1, 0, 1)}, {"b", Material::isotropic(10, 0, 1)}},
                                  {{"all", "a"}, {"stiff", "b"}});
-  const RowMatrix u = field(mesh, [](const Eigen::Vector3d& x) {  // sigma_yy jumps, as it does under one stretch
-    return Eigen::Vector3d(0, x.y(), 0);
-  });
+  // sigma_yy jumps, since both materials have the same strain.
+  const RowMatrix u = field(mesh, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(0, x.y(), 0); });
   CHECK(estimate_mesh_error(solid, u).relative(0) < 1e-6);
 }
 
-TEST_CASE("The estimate is that of the true error of a bent cantilever, within a factor of 1.5, of 2 with few tet4") {
-  // Saint-Venant's flexure by a tip shear, displacements given on the whole boundary, so that there is no singularity
-  // at a clamp. Without lateral contraction sigma = E strain: sigma_xx = E (L - x) y, sigma_xy = E (y^2 - h^2/4) / 2.
+TEST_CASE("The estimate for a bent cantilever is within a factor of 1.5 of the true error, 2 with few tet4") {
+  // The field is Saint-Venant's flexure by a shear force at the tip. Displacements are prescribed on the whole
+  // boundary, so that there is no singularity at a clamp. Without lateral contraction sigma = E strain: sigma_xx = E (L
+  // - x) y, sigma_xy = E (y^2 - h^2/4) / 2.
   constexpr double length = 2, height = 1, width = 0.5;
   const auto exact = [&](const Eigen::Vector3d& x) {
     const double X = x.x(), Y = x.y() - height / 2;

@@ -9,7 +9,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
-TEST_CASE("Neighbours in the graph are the nodes that share a cell") {
+TEST_CASE("Two nodes are neighbours in the graph if they share a cell") {
   Eigen::MatrixXi cells(4, 2);
   cells << 0, 1, 1, 2, 2, 3, 3, 5;
   const NodeGraph graph = node_graph(Mesh{Eigen::Matrix3Xd::Zero(3, 7), {{CellType::tet4, cells}}, {}}, 2);
@@ -39,7 +39,7 @@ TEST_CASE("Cells of one colour share no node, and every cell has a colour") {
   CHECK(static_cast<Eigen::Index>(coloured.size()) == cells.cols());
 }
 
-TEST_CASE("The places of a cell's pairs are those that are looked up one by one") {
+TEST_CASE("The places of all pairs of a cell equal the places of single pairs") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 3, 2}});
   const Eigen::MatrixXi& cells = mesh.blocks[0].nodes;
   const NodeGraph graph = node_graph(mesh);
@@ -59,7 +59,7 @@ TEST_CASE("The places of a cell's pairs are those that are looked up one by one"
   }
 }
 
-TEST_CASE("A node matrix acts on each component of the nodes alike") {
+TEST_CASE("A node matrix acts on each component of the nodes in the same way") {
   Eigen::MatrixXi cells(4, 1);
   cells << 0, 1, 2, 3;
   const NodeGraph graph = node_graph(Mesh{Eigen::Matrix3Xd::Zero(3, 4), {{CellType::tet4, cells}}, {}});
@@ -70,7 +70,7 @@ TEST_CASE("A node matrix acts on each component of the nodes alike") {
       dense(a, b) = m.values[graph.place(a, b)] = 1 + a * b + a + b;
     }
   }
-  for (const int columns : {1, 2, 3, 4, 7, 16, 19}) {  // strips of every width
+  for (const int columns : {1, 2, 3, 4, 7, 16, 19}) {  // covers every width of strips
     const RowMatrix x = RowMatrix::Random(12, columns);
     const RowMatrix y = m.multiply(x, 3, 2);
     for (int i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ double factorial(int n) { return std::tgamma(n + 1.0); }
 
 }  // namespace
 
-TEST_CASE("Shape functions are one at their node and zero at the others, with gradients that are their derivatives") {
+TEST_CASE("Shape functions are one at their node and zero at the others, and gradients are their derivatives") {
   const CellType type = GENERATE(from_range(all_types()));
   CAPTURE(cell_name(type));
   const Eigen::MatrixXd nodes = local_nodes(type);
@@ -62,7 +62,7 @@ TEST_CASE("Shape functions interpolate polynomials of their order exactly") {
     }
 }
 
-TEST_CASE("Faces of solid cells look outward, and each edge is between two of them") {
+TEST_CASE("Faces of solid cells point outward, and two of them meet at each edge") {
   for (const CellInfo& cell : cell_table()) {
     CAPTURE(cell.name);
     const Eigen::MatrixXd nodes = local_nodes(cell.type);
@@ -72,7 +72,7 @@ TEST_CASE("Faces of solid cells look outward, and each edge is between two of th
       const Eigen::Vector3d middle = nodes.leftCols(cell.vertices).rowwise().mean();
       const Eigen::Vector3d a = nodes.col(face.nodes[0]), b = nodes.col(face.nodes[1]), c = nodes.col(face.nodes[2]);
       CHECK((b - a).cross(c - a).dot(a - middle) > 0);
-      // Nodes of the face are where its own reference cell has them.
+      // Nodes of the face are at the places of its own reference cell.
       const Eigen::MatrixXd of_face = local_nodes(face.type);
       Eigen::MatrixXd corners(3, vertex_count(face.type));
       for (int k = 0; k < corners.cols(); ++k) corners.col(k) = nodes.col(face.nodes[static_cast<std::size_t>(k)]);
@@ -86,12 +86,13 @@ TEST_CASE("Faces of solid cells look outward, and each edge is between two of th
         ++ends[{from, to}];
       }
     }
-    if (cell.dimension == 3) CHECK(ends.size() == 2 * cell.edges.size());  // once in each direction
+    if (cell.dimension == 3)
+      CHECK(ends.size() == 2 * cell.edges.size());  // two faces run along an edge in opposite directions
     for (const auto& [edge, count] : ends) CHECK(count == 1);
   }
 }
 
-TEST_CASE("Rules of all types integrate the size of the reference cell and of its shape functions") {
+TEST_CASE("Rules of all types integrate the volume of the reference cell and its shape functions") {
   const std::map<std::string, double> sizes = {
       {"tri3", 0.5}, {"quad4", 4},   {"tet4", 1.0 / 6},      {"hex8", 8},        {"wedge6", 1}, {"pyramid5", 4.0 / 3},
       {"hex20", 8},  {"wedge15", 1}, {"pyramid13", 4.0 / 3}, {"tet10", 1.0 / 6}, {"hex27", 8},  {"quad9", 4}};

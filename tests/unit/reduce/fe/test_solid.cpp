@@ -33,7 +33,7 @@ Mesh two_halves() {
 
 }  // namespace
 
-TEST_CASE("Regions give cells their material, 'all' the rest") {
+TEST_CASE("Regions give cells their material; 'all' stands for the remaining cells") {
   const Mesh mesh = two_halves();
   const Solid solid = make_solid(mesh, metals, {{"left", "copper"}, {"all", "steel"}});
   const MassProperties body = mass_properties(solid);
@@ -56,7 +56,7 @@ TEST_CASE("Wrong regions are refused with the nearest name") {
   CHECK_THROWS_AS(make_solid(Mesh{}, metals, {{"all", "steel"}}), InputError);
 }
 
-TEST_CASE("Mass, centre and inertia of a box are those of the closed form") {
+TEST_CASE("Mass, centre and inertia of a box equal the closed form") {
   const double a = 0.7, b = 0.3, c = 0.2;
   const Mesh mesh = test::distorted_box_mesh({{a, b, c}, {4, 3, 2}}, 0.2);
   const MassProperties body = mass_properties(make_solid(mesh, metals, {{"all", "steel"}}));
@@ -68,7 +68,7 @@ TEST_CASE("Mass, centre and inertia of a box are those of the closed form") {
 }
 
 TEST_CASE("Curved cells have the mass properties of the curved body") {
-  // y -> y + 0.3 x^2 + 0.1 x z keeps volumes; its second moments follow by integration over the unit cube.
+  // The map y -> y + 0.3 x^2 + 0.1 x z preserves volumes; second moments follow by integration over the unit cube.
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}}, [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x.x(), x.y() + 0.3 * x.x() * x.x() + 0.1 * x.x() * x.z(), x.z());
   });
@@ -85,7 +85,7 @@ TEST_CASE("Curved cells have the mass properties of the curved body") {
   CHECK(body.inertia(0, 1) == Approx(-(0.25 + 0.075 + 0.1 / 6 - 0.5 * mean_y)).epsilon(1e-13));
 }
 
-TEST_CASE("Points that no cell uses are told apart") {
+TEST_CASE("Points that no cell uses are recognised") {
   Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}});
   mesh.points.conservativeResize(Eigen::NoChange, mesh.points.cols() + 1);
   mesh.points.rightCols<1>().setConstant(7);
@@ -109,7 +109,7 @@ TEST_CASE("A coated box has the mass, centre and inertia of a box and its plates
                                   top * Eigen::Vector3d(size.x() / 2, size.y() / 2, 0)) /
                                  body.mass;
   CHECK((body.centre - centre).norm() < 1e-13);
-  // About y: each part about its own centre, and Steiner's terms.
+  // The inertia about y is the sum over the parts, each about its own centre, plus Steiner's terms.
   const double about_y =
       steel / 12 * (size.x() * size.x() + size.z() * size.z()) + plate / 12 * size.z() * size.z() +
       top / 12 * size.x() * size.x() +

@@ -11,7 +11,7 @@ using namespace bielle;
 using namespace bielle::reduce;
 
 TEST_CASE("Linear stress fields are recovered exactly at the nodes of a distorted mesh") {
-  // Saint-Venant bending about z with unit curvature: sigma_xx = -E y.
+  // The field is Saint-Venant's bending about z with unit curvature: sigma_xx = -E y.
   const double nu = 0.3, young = 2e5;
   const Mesh mesh = test::distorted_box_mesh({{1, 1, 1}, {3, 2, 3}}, 0.25);
   const Solid solid = make_solid(mesh, {{"m", Material::isotropic(young, nu, 1)}}, {{"all", "m"}});
@@ -38,7 +38,7 @@ TEST_CASE("Linear stress fields are recovered exactly at the nodes of a distorte
   }
 }
 
-TEST_CASE("Surface nodes are those of faces that belong to one cell") {
+TEST_CASE("Surface nodes are the nodes of faces that belong to one cell only") {
   const bool quadratic = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {3, 2, 4}, quadratic});
   const Solid solid = make_solid(mesh, {{"m", Material::isotropic(1, 0, 1)}}, {{"all", "m"}});
@@ -51,8 +51,8 @@ TEST_CASE("Surface nodes are those of faces that belong to one cell") {
   CHECK(surface_nodes(solid) == expected);
 }
 
-TEST_CASE("Between cells of one material the nodal stress is the mean of theirs, weighted by volume") {
-  // Two layers, 0.2 and 0.8 thick, of which the first alone is strained: 1 Pa in it, nothing in the other.
+TEST_CASE("The nodal stress between cells of one material is their mean, weighted by volume") {
+  // Two layers are 0.2 and 0.8 thick; only the first one is strained, with a stress of 1 Pa.
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 1, 1}, false}, [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x.x() < 0.5 ? 0.4 * x.x() : 0.2 + 1.6 * (x.x() - 0.5), x.y(), x.z());
   });
@@ -79,7 +79,7 @@ TEST_CASE("Between cells of one material the nodal stress is the mean of theirs,
           Approx(strained[static_cast<std::size_t>(a)] / all[static_cast<std::size_t>(a)]).margin(1e-13));
 }
 
-TEST_CASE("At a node between two materials the stress is that of the one with more volume there") {
+TEST_CASE("The stress at a node between two materials is that of the material with more volume there") {
   Mesh mesh = test::box_mesh({{3, 1, 1}, {3, 1, 1}});
   Group stiff{3, {{CellType::tet10, {}}}, {}};
   for (Eigen::Index e = 0; e < mesh.blocks[0].nodes.cols(); ++e) {
@@ -102,7 +102,7 @@ TEST_CASE("At a node between two materials the stress is that of the one with mo
     if (std::abs(x - 1) > 1e-9) {
       CHECK(stress(6 * a) == Approx(x < 1 ? 1 : 10).epsilon(1e-12));
     } else {
-      CHECK((std::abs(stress(6 * a) - 1) < 1e-12 || std::abs(stress(6 * a) - 10) < 1e-11));  // never a mean
+      CHECK((std::abs(stress(6 * a) - 1) < 1e-12 || std::abs(stress(6 * a) - 10) < 1e-11));  // not a mean
     }
   }
 }

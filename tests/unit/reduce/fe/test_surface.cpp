@@ -34,9 +34,9 @@ TEST_CASE("Area, centroid and moments of a side of a box are those of a rectangl
   CHECK((side.normals.rowwise().sum() - Eigen::Vector3d(0, 0, 6)).norm() < 1e-14);
 }
 
-TEST_CASE("A pressure on a bulged face pushes like one on its opening, with the moment of the enclosed volume") {
-  // Side x = 1 bulges by 0.3 y (1 - y) z (1 - z): its edge, hence the resultant, stays. The map is quadratic on y and z
-  // edges only, so that faces are parabolic pieces and the closed surface is that of the mesh.
+TEST_CASE("A pressure on a bulged face has the resultant of its plane outline, and the moment of the enclosed volume") {
+  // Side x = 1 bulges by 0.3 y (1 - y) z (1 - z), which changes neither its edge nor the resultant. The map is
+  // quadratic along edges in y and z only, so that faces are parabolic and the closed surface is that of the mesh.
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 3, 3}}, [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x.x() * (1 + 0.3 * x.y() * (1 - x.y()) * x.z() * (1 - x.z())), x.y(), x.z());
   });
@@ -44,7 +44,8 @@ TEST_CASE("A pressure on a bulged face pushes like one on its opening, with the 
   CHECK(bulge.area > 1);
   const Eigen::Matrix3Xd forces = pressure_forces(bulge, 2e5);
   CHECK((forces.rowwise().sum() - Eigen::Vector3d(-2e5, 0, 0)).norm() < 1e-9);
-  // int x x n dA over a closed surface vanishes: the moment of the five plane sides balances that of the bulge.
+  // int x x n dA (a vector product) over a closed surface is zero: the moments of the five plane sides and of the bulge
+  // balance.
   Eigen::Vector3d all = moment(mesh, bulge, forces);
   for (const char* side : {"x0", "y0", "y1", "z0", "z1"}) {
     const SurfaceIntegrals plane = integrate_surface(mesh, side);
@@ -53,7 +54,7 @@ TEST_CASE("A pressure on a bulged face pushes like one on its opening, with the 
   CHECK(all.norm() < 1e-9);
 }
 
-TEST_CASE("Tractions and spread forces have the resultants that were asked for") {
+TEST_CASE("Tractions and distributed forces have the requested resultants") {
   const Mesh mesh = test::box_mesh({{1, 2, 1}, {2, 2, 2}});
   const SurfaceIntegrals side = integrate_surface(mesh, "x1");
   const Eigen::Vector3d traction(3, -2, 5);
@@ -63,7 +64,7 @@ TEST_CASE("Tractions and spread forces have the resultants that were asked for")
   CHECK((spread_force(side, traction).rowwise().sum() - traction).norm() < 1e-14);
 }
 
-TEST_CASE("A surface that the mesh has not is named with the nearest") {
+TEST_CASE("The message about a missing surface names the nearest one") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}});
   CHECK_THROWS_WITH(integrate_surface(mesh, "x2"), Catch::Contains("no surface group 'x2'"));
   CHECK_THROWS_AS(integrate_surface(mesh, "solid"), InputError);

@@ -1,4 +1,4 @@
-// Materials whose axes turn around a line: wound tubes.
+// Tests of materials whose axes follow the direction around a line, as in wound tubes.
 #include <cmath>
 #include <numbers>
 
@@ -20,7 +20,8 @@ namespace test_wound_material {
 
 constexpr double radial = 1e9, around = 9e9, along = 4e9;
 
-/// Returns a material that is wound around a line, with moduli along [radial, around, along] and no contraction across.
+/// Returns a material that is wound around a line. It has moduli along [radial, around, along] and no lateral
+/// contraction.
 Material wound(const Vector3d& point, const Vector3d& axis) {
   Material material = Material::orthotropic({radial, around, along}, Vector3d::Zero(), Vector3d(1e9, 1e9, 1e9), 1500);
   material.winding_point = point;
@@ -36,8 +37,8 @@ Mesh quarter(CellType type, int n, const Eigen::Isometry3d& moved = Eigen::Isome
   });
 }
 
-/// Returns the exact displacement of a tube of this material under pressure: r^k and r^-k, k^2 = E_around / E_radial
-/// (S. G. Lekhnitskii, Theory of Elasticity of an Anisotropic Body, cylindrical anisotropy).
+/// Returns the exact radial displacement of a tube of this material under pressure, a sum of r^k and r^-k with k^2 =
+/// E_around / E_radial (S. G. Lekhnitskii, Theory of Elasticity of an Anisotropic Body, cylindrical anisotropy).
 double displacement(double r) { return 1e-3 * (std::pow(r, 3) + std::pow(r, -3)); }
 
 Vector3d exact(const Vector3d& x) {
@@ -50,7 +51,7 @@ bool on_surface(const Vector3d& x) {
   return r < 1 + near || r > 2 - near || x.x() < near || x.y() < near || x.z() < near || x.z() > 1 - near;
 }
 
-/// Returns the displacements of a quarter whose surface is moved as the exact solution moves it.
+/// Returns the displacements of a quarter whose surface has the displacements of the exact solution.
 RowMatrix solution(const test::SolidModel& model) {
   RowMatrix u = test::field(model.mesh, [](const Vector3d& x) { return on_surface(x) ? exact(x) : Vector3d::Zero(); });
   return u + model.solve(-model.stiffness.multiply(u));
@@ -63,19 +64,20 @@ double error(CellType type, int n) {
   return (solution(model) - right).cwiseAbs().maxCoeff() / right.cwiseAbs().maxCoeff();
 }
 
-TEST_CASE("a wound tube deforms as the closed form of cylindrical anisotropy says", "[fe]") {
+TEST_CASE("the deformation of a wound tube is the closed form of cylindrical anisotropy", "[fe]") {
   const CellType type = GENERATE(CellType::hex20, CellType::tet10, CellType::wedge15);
   const double coarse = error(type, 8), fine = error(type, 16);
   INFO(static_cast<int>(type) << ": " << coarse << " " << fine);
   CHECK(fine < 2e-3);
-  CHECK(coarse / fine >
-        3);  // order 2, since a cell has the axes of its centroid: 4 but for tet10, 3.1 and from 16 to 32 3.4
+  // The order is 2, since a cell has the axes at its centroid. tet10 has a ratio of 3.1, and of 3.4 from 16 to 32; the
+  // others have 4.
+  CHECK(coarse / fine > 3);
 }
 
-TEST_CASE("the hoop stress of a wound tube is that of the closed form", "[fe]") {
+TEST_CASE("the hoop stress of a wound tube is the closed form", "[fe]") {
   const test::SolidModel model(quarter(CellType::hex20, 12), wound(Vector3d::Zero(), Vector3d::UnitZ()),
                                [](const Vector3d& x, int) { return on_surface(x); });
-  // A point in the middle of the wall, on the x axis: the hoop stress is along y.
+  // At a point in the middle of the wall, on the x axis, the hoop stress is along y.
   int node = -1;
   for (int a = 0; a < model.mesh.point_count(); ++a)
     if ((model.mesh.points.col(a) - Vector3d(1.5, 0, 0)).norm() < 1e-9) node = a;
@@ -109,7 +111,7 @@ TEST_CASE("a wound body that is moved and turned with its line keeps its frequen
   CHECK((straight.frequencies(6) - f).norm() > 1e-2 * f.norm());
 }
 
-TEST_CASE("cells on the line of their wound material are refused", "[fe]") {
+TEST_CASE("cells on the line around which their material is wound are refused", "[fe]") {
   const Mesh mesh = test::cell_box(CellType::hex8, {1, 1, 1}, {1, 1, 1});
   CHECK_THAT(test::message_of<InputError>([&] {
                make_solid(mesh, {{"carbon", wound({0.5, 0.5, 0}, Vector3d::UnitZ())}}, {{"all", "carbon"}});

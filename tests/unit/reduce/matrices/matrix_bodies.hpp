@@ -1,4 +1,4 @@
-// Sets of matrices that the tests share: those of meshes, and beams of two or more nodes with six unknowns each.
+// Sets of matrices for several tests: those of meshes, and beams of two or more nodes with six unknowns each.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ namespace bielle::test {
 
 inline reduce::SparseColumns sparse(const Eigen::MatrixXd& matrix) { return matrix.sparseView(); }
 
-/// K and M of a steel mesh; nodes have the numbers 1, 2 ...
+/// Returns K and M of a steel mesh; nodes are numbered from 1.
 inline reduce::MatrixSet matrices_of(const reduce::Mesh& mesh) {
   const reduce::Solid solid = steel_solid(mesh);
   const reduce::NodeGraph graph = reduce::node_graph(mesh);
@@ -33,7 +33,7 @@ inline reduce::MatrixSet matrices_of(const reduce::Mesh& mesh) {
   return set;
 }
 
-/// Turns the axes of each node by an angle of its own, with the matrices.
+/// Rotates the axes of each node by its own angle, and transforms the matrices.
 inline void turn_nodes(reduce::MatrixSet& set) {
   Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(set.size(), set.size());
   for (std::size_t a = 0; a < set.numbers.size(); ++a)
@@ -49,7 +49,7 @@ inline void turn_nodes(reduce::MatrixSet& set) {
   set.mass = sparse(turn.transpose() * set.mass * turn);
 }
 
-/// Returns the numbers of the nodes of a group of a mesh, as in `matrices_of`.
+/// Returns the numbers of the nodes in a group of a mesh, as numbered by `matrices_of`.
 inline std::vector<std::int64_t> node_numbers(const reduce::Mesh& mesh, const std::string& group) {
   std::vector<std::int64_t> result;
   for (const int node : mesh.groups.at(group).nodes) result.push_back(node + 1);

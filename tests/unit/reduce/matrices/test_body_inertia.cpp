@@ -1,4 +1,4 @@
-// The inertia of large rotations of foreign matrices.
+// Tests of the inertia of large rotations that is computed from matrices of other programs.
 #include <catch2/catch.hpp>
 
 #include "reduce/matrices/rigid_split.hpp"
@@ -11,12 +11,13 @@ using namespace bielle::reduce;
 
 namespace {
 
-/// Returns S_kl U of rigid motions about the centre: the first moments that momentum and centrifugal forces consist of.
+/// Returns S_kl U with the rigid motions U about the centre: the first moments in momentum and centrifugal forces.
 Eigen::MatrixXd moments(const Superelement& body, std::size_t component) {
   return body.inertia_components[component] * rigid_coordinates(body, body.centre);
 }
 
-/// Returns the kinetic energy per square of the rate of a rigid spin about an axis, from the inertia components alone.
+/// Returns the kinetic energy of a rigid spin about an axis divided by the squared rate, from the inertia components
+/// alone.
 double spin_energy(const Superelement& body, const Eigen::Vector3d& axis) {
   Eigen::VectorXd turn = rigid_coordinates(body, body.centre).rightCols(3) * axis;
   return 0.5 * turn.dot((body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2]) * turn);
@@ -24,8 +25,8 @@ double spin_energy(const Superelement& body, const Eigen::Vector3d& axis) {
 
 }  // namespace
 
-TEST_CASE("Blocks of nodes give a beam's inertia in all directions") {
-  // Each node moves in its own directions: lateral motion has its mass there, to the order of the element's length.
+TEST_CASE("The blocks of the nodes give the inertia of a beam in all directions") {
+  // The mass of lateral motion is at the nodes, up to terms of the order of the element length.
   const int elements = GENERATE(1, 10);
   const Superelement body = test::reduced(test::beam_set(elements), {});
   const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
@@ -33,7 +34,7 @@ TEST_CASE("Blocks of nodes give a beam's inertia in all directions") {
   for (int k = 0; k < 3; ++k) CHECK(spin_energy(body, Eigen::Vector3d::Unit(k)) == Approx(body.inertia(k, k) / 2));
   CHECK((rigid.col(1).transpose() * body.inertia_components[1] * rigid.col(1)).value() == Approx(6));
   CHECK(std::abs((rigid.col(1).transpose() * body.inertia_components[0] * rigid.col(1)).value()) < 1e-9);
-  // A spin about z moves along y: m L^2 / 12 = 2 in S_22, and the torsional inertia is shared by S_22 and S_33.
+  // A spin about z is motion along y: S_22 contains m L^2 / 12 = 2; S_22 and S_33 share the torsional inertia.
   CHECK((rigid.col(5).transpose() * body.inertia_components[1] * rigid.col(5)).value() == Approx(2.0).epsilon(0.01));
   CHECK(body.checks.at("unknown_inertia_share") < most);
 }
@@ -54,23 +55,24 @@ TEST_CASE("Points with masses and inertia give the inertia components exactly") 
   CHECK((sum.bottomRightCorner(3, 3) - expected).norm() < 1e-12);
 }
 
-TEST_CASE("Of reduced matrices with scalars the rigid part and the stretching of a beam are exact") {
+TEST_CASE("The rigid part and the stretching of a beam are exact from reduced matrices with scalars") {
   MatrixSet set = test::beam_set(2);
   for (int k = 0; k < 6; ++k) set.unknowns[static_cast<std::size_t>(6 + k)] = {-1, k};
   const Superelement body = test::reduced(set, {});
   for (int k = 0; k < 3; ++k) CHECK(spin_energy(body, Eigen::Vector3d::Unit(k)) == Approx(body.inertia(k, k) / 2));
-  // The momentum of any motion along k is the row of M~ with the translation along k.
+  // The row of M~ that belongs to the translation along k gives the momentum along k of any motion.
   const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
   CHECK((moments(body, 0).col(0) - body.mass * rigid.col(0)).norm() < 1e-9);
   CHECK((moments(body, 1).col(1) - body.mass * rigid.col(1)).norm() < 1e-9);
-  // Stretched by 1 at the right end, u_x = x / L: the integral of rho (x - L/2) u_x is rho L^2 / 12 = 1, and a spin
+  // The beam is stretched by 1 at the right end, u_x = x / L. The first moment in a spin about y or z is the integral
+  // of rho (x - L/2) u_x = rho L^2 / 12 = 1.
   CHECK(std::abs(moments(body, 5)(6, 5)) == Approx(1).epsilon(0.01));
   CHECK(std::abs(moments(body, 4)(6, 4)) == Approx(1).epsilon(0.01));
-  CHECK(body.checks.at("unknown_inertia_share") > 0.1);  // bending: said to be unknown
+  CHECK(body.checks.at("unknown_inertia_share") > 0.1);  // the inertia of bending is reported as unknown
 }
 
-TEST_CASE("Equal masses at the points of shapes tell the directions of an even mesh") {
-  // A bar of equal cells; its points have equal masses but for its surface.
+TEST_CASE("Equal masses at the points of shapes give the directions of inertia on a regular mesh") {
+  // The cells of the bar are equal, and so are the masses of its points except on the surface.
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.15}, {12, 3, 4}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 4);
   const Superelement exact = test::reduced(mesh, options);
@@ -104,7 +106,7 @@ TEST_CASE("Equal masses at the points of shapes tell the directions of an even m
   CHECK(alone.checks.at("unknown_inertia_share") > 0.1);
 }
 
-TEST_CASE("The components add up to M~ wherever they come from") {
+TEST_CASE("The components add up to M~, independently of their source") {
   MatrixSet set = test::beam_set(3);
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {40})};
@@ -113,9 +115,9 @@ TEST_CASE("The components add up to M~ wherever they come from") {
   CHECK((sum - body.mass).norm() < 1e-12 * body.mass.norm());
 }
 
-TEST_CASE("Energy of the rest without known directions is shared by all three, that with known ones is scaled") {
-  // Six rigid motions and two deformations as coordinates, with a unit mass matrix. The components tell 0.3 of the
-  // energy of the first deformation, all along x, and 0.8 of that of the second, all along y.
+TEST_CASE("The rest of the energy is shared by three directions if they are unknown, and scaled if they are known") {
+  // The coordinates are six rigid motions and two deformations, with a unit mass matrix. The components contain 0.3 of
+  // the energy of the first deformation, all along x, and 0.8 of that of the second, all along y.
   MassProperties properties;
   properties.mass = 1;
   properties.inertia = Eigen::Matrix3d::Identity();

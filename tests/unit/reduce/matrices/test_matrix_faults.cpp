@@ -1,4 +1,4 @@
-// Wrong matrices are refused by name.
+// Tests that wrong matrices are refused, and that messages name the wrong entry.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
@@ -8,7 +8,7 @@ using namespace bielle;
 using namespace bielle::reduce;
 using Catch::Contains;
 
-TEST_CASE("Matrices that are not symmetric are refused with the worst pair") {
+TEST_CASE("Unsymmetric matrices are refused with the worst pair of entries") {
   MatrixSet set = test::beam_set();
   set.stiffness.coeffRef(1, 5) *= 1.001;
   CHECK_THROWS_WITH(test::reduced(set, {}),
@@ -18,13 +18,13 @@ TEST_CASE("Matrices that are not symmetric are refused with the worst pair") {
   CHECK_THROWS_WITH(test::reduced(set, {}), Contains("mass is not symmetric") && Contains("one triangle"));
 }
 
-TEST_CASE("A stiffness that is held to the ground is refused, and so are wrong places") {
+TEST_CASE("A stiffness that is connected to the ground is refused, and so are wrong positions") {
   MatrixSet set = test::beam_set();
   set.stiffness.coeffRef(8, 8) += 1e6;
   CHECK_THROWS_WITH(test::reduced(set, {}),
                     Contains("rigid rotation about y") && Contains("held to the ground") && Contains("node_20 z"));
   set = test::beam_set();
-  set.positions *= 1000;  // millimetres
+  set.positions *= 1000;  // positions in millimetres
   CHECK_THROWS_WITH(test::reduced(set, {}), Contains("positions, axes and units"));
   set = test::beam_set();
   std::swap(set.unknowns[7], set.unknowns[8]);
@@ -72,18 +72,18 @@ TEST_CASE("Directions that a node does not have are named") {
   CHECK_THROWS_WITH(test::reduced(test::matrices_of(mesh), options), Contains("singular"));
 }
 
-TEST_CASE("A negative mass is refused, with its entry or by what is left of it at the interfaces") {
+TEST_CASE("A negative mass is refused with its entry, or with the mass that remains at the interfaces") {
   MatrixSet set = test::beam_set(5);
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {60})};
   set.mass = -set.mass;
   CHECK_THROWS_WITH(test::reduced(set, options), Contains("negative entry on its diagonal") && Contains("node 10 x"));
   set.mass = -set.mass;
-  set.mass.coeffRef(0, 30) = set.mass.coeffRef(30, 0) = 10 * set.mass.coeff(0, 0);  // couples both ends
+  set.mass.coeffRef(0, 30) = set.mass.coeffRef(30, 0) = 10 * set.mass.coeff(0, 0);  // the entry couples both ends
   CHECK_THROWS_WITH(test::reduced(set, options), Contains("the mass is not positive: reduced and scaled"));
 }
 
-TEST_CASE("A body whose mass is at its interfaces alone has no modes") {
+TEST_CASE("A body with mass only at its interfaces has no modes") {
   MatrixSet set = test::beam_set(2);
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {30})};
@@ -97,7 +97,7 @@ TEST_CASE("A body whose mass is at its interfaces alone has no modes") {
   CHECK(body.total_mass == Approx(4));
 }
 
-TEST_CASE("Matrices without mass or without anything are refused") {
+TEST_CASE("Matrices without mass, and empty ones, are refused") {
   MatrixSet set = test::beam_set();
   set.mass.setZero();
   CHECK_THROWS_WITH(test::reduced(set, {}), Contains("a mass matrix is needed"));

@@ -1,4 +1,4 @@
-// The matrix file: what is written in its form is read, and what does not fit is refused.
+// Tests of the matrix file: a file of its layout is read, and one whose parts do not fit together is refused.
 #include <functional>
 
 #include <catch2/catch.hpp>

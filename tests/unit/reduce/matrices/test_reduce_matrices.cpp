@@ -1,4 +1,5 @@
-// Foreign matrices reduced: against the reduction of the mesh that they come from, and against closed forms.
+// Compares the reduction of matrices of other programs with that of the mesh from which they come, and with closed
+// forms.
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A body with its ends tied, as a mesh and as matrices.
+/// A body whose ends are tied, as a mesh and as matrices.
 struct BothWays {
   Superelement mesh, matrices;
 };
@@ -22,7 +23,7 @@ struct BothWays {
 BothWays reduced_both_ways(Tie a, Tie b, int modes, bool turned = false) {
   Mesh mesh = test::twisted_block();
   for (const char* name : {"x0", "x1"}) {
-    Group group;  // nodes of equal weight in place of the surface
+    Group group;  // the tie has nodes of equal weight in place of the surface
     group.nodes = mesh.groups.at(name).nodes;
     group.weights.assign(group.nodes.size(), 1.0);
     mesh.groups[std::string(name) + " nodes"] = group;
@@ -49,7 +50,7 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-/// Returns the signs of the modes of `body` against those of another, from the displacements; 1 for the interfaces.
+/// Returns the signs of the modes of `body` relative to those of another, from the displacements; 1 for the interfaces.
 Eigen::VectorXd signs(const Superelement& body, const Superelement& other) {
   Eigen::VectorXd result = Eigen::VectorXd::Ones(body.size());
   for (Eigen::Index k = body.interface_directions(); k < body.size(); ++k)
@@ -77,7 +78,7 @@ TEST_CASE("Matrices of a mesh reduce to the superelement of the mesh") {
   CHECK(difference(mesh.inertia, matrices.inertia) < 1e-10);
 }
 
-TEST_CASE("Modes of matrices are found by iteration where the body is large") {
+TEST_CASE("Modes of matrices of large bodies are found by iteration") {
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.15}, {6, 3, 3}});
   MatrixOptions options;
   options.interfaces = {test::tied("a", test::node_numbers(mesh, "x0"))};
@@ -104,13 +105,13 @@ TEST_CASE("Modes of matrices are found by iteration where the body is large") {
   CHECK_THROWS_WITH(test::reduced(set, options), Contains("100000 fixed-boundary modes are asked for"));
 }
 
-TEST_CASE("A reduced beam keeps its matrices, whatever scalars describe its inside") {
+TEST_CASE("A reduced beam keeps its matrices, independently of the scalars for its interior") {
   MatrixSet set = test::beam_set(3);
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {40})};
   const Superelement plain = test::reduced(set, options);
   REQUIRE(plain.modes() == 12);
-  // The two inner nodes become scalars, mixed by a regular matrix.
+  // A regular matrix turns the unknowns of the two inner nodes into scalars.
   Eigen::MatrixXd mixed = Eigen::MatrixXd::Identity(24, 24);
   mixed.block(6, 6, 12, 12) += 0.3 * Eigen::MatrixXd::Random(12, 12);
   set.stiffness = test::sparse(mixed.transpose() * set.stiffness * mixed);
@@ -119,14 +120,14 @@ TEST_CASE("A reduced beam keeps its matrices, whatever scalars describe its insi
   const Superelement scalars = test::reduced(set, options);
   CHECK(difference(plain.stiffness, scalars.stiffness) < 1e-9);
   CHECK(difference(plain.frequencies, scalars.frequencies) < 1e-9);
-  CHECK(difference(plain.mass.cwiseAbs(), scalars.mass.cwiseAbs()) < 1e-7);  // modes up to their sign
+  CHECK(difference(plain.mass.cwiseAbs(), scalars.mass.cwiseAbs()) < 1e-7);  // modes are determined up to their sign
   CHECK(plain.total_mass == Approx(6));
   CHECK(plain.centre.x() == Approx(1));
   CHECK(plain.inertia(2, 2) == Approx(2.0));  // m L^2 / 12
   CHECK(plain.inertia(0, 0) == Approx(2e-4));
 }
 
-TEST_CASE("A body with one interface has no stiffness there but rounding") {
+TEST_CASE("The stiffness at the only interface of a body is zero up to rounding") {
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10})};
   const Superelement body = test::reduced(test::beam_set(3), options);
@@ -140,12 +141,12 @@ TEST_CASE("A body with one interface has no stiffness there but rounding") {
   const Superelement again = test::reduced(set, {});
   CHECK(again.stiffness.topLeftCorner(6, 6).norm() == 0);
   CHECK(difference(body.frequencies, again.frequencies) < 1e-9);
-  // Held to the ground by a spring that would let it swing at a tenth of its first frequency.
+  // The body is connected to the ground by a spring on which it would vibrate at a tenth of its first frequency.
   set.stiffness.coeffRef(1, 1) += 0.01 * std::pow(2 * std::numbers::pi * body.frequencies(0), 2) * body.total_mass;
   CHECK_THROWS_WITH(test::reduced(set, {}), Contains("held to the ground"));
 }
 
-TEST_CASE("Nodes of a reduced file are its interfaces, or those that it declares") {
+TEST_CASE("The interfaces of a reduced file are all of its nodes, or those that it declares") {
   MatrixSet set = test::beam_set(2);
   const Superelement all = test::reduced(set, {});
   REQUIRE(all.interfaces.size() == 3);
@@ -158,24 +159,26 @@ TEST_CASE("Nodes of a reduced file are its interfaces, or those that it declares
   CHECK(declared.modes() == 6);
 }
 
-TEST_CASE("A direction that an interface releases stays inside, also along axes of its own") {
+TEST_CASE("A direction that an interface releases is an inner unknown, also in axes of the interface") {
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {20})};
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()).toRotationMatrix();
   options.interfaces[1].rotation = turn;
-  options.interfaces[1].kept = {true, true, true, true, true, false};  // turns about its own z: a hinge
+  // The interface releases the rotation about its own z, as a hinge does.
+  options.interfaces[1].kept = {true, true, true, true, true, false};
   const Superelement body = test::reduced(test::beam_set(), options);
   REQUIRE(body.interface_directions() == 11);
   CHECK(body.modes() == 1);
-  // Deflected along its own y by w, the beam is a cantilever in this plane: the force is 3 EI w / L^3, with EI of the
-  // turned plane.
+  // If the interface is displaced along its own y by w, the beam is a cantilever in this plane: the force is 3 EI w /
+  // L^3 with EI of this plane.
   const double s = std::sin(0.7), c = std::cos(0.7), EIz = 3e4, EIy = 2e4;
-  // The hinge releases rotation about z' alone; condensation of one rotation: k_yy - k_yr^2 / k_rr in turned axes.
+  // The hinge releases the rotation about z' alone. The condensation of this rotation gives k_yy - k_yr^2 / k_rr in the
+  // turned axes.
   const double EI1 = c * c * EIz + s * s * EIy, L = 2;
   CHECK(body.stiffness(7, 7) == Approx(12 * EI1 / 8 - std::pow(6 * EI1 / 4, 2) / (4 * EI1 / L)));
 }
 
-TEST_CASE("Rotations without mass, as lumped matrices have them, do not stop the reduction") {
+TEST_CASE("Matrices with massless rotations, as lumped ones have, can be reduced") {
   MatrixSet set = test::beam_set(4);
   Eigen::MatrixXd lumped = Eigen::MatrixXd::Zero(set.size(), set.size());
   for (Eigen::Index k = 0; k < set.size(); ++k)
@@ -187,11 +190,11 @@ TEST_CASE("Rotations without mass, as lumped matrices have them, do not stop the
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {50})};
   const Superelement body = test::reduced(set, options);
-  CHECK(body.modes() == 9);  // three masses inside with three directions each
+  CHECK(body.modes() == 9);  // three inner masses with three directions each
   CHECK(body.total_mass == Approx(6));
 }
 
-TEST_CASE("A full set of one unknown pattern drops empty unknowns") {
+TEST_CASE("Unknowns without any entries are dropped") {
   MatrixSet set = test::beam_set();
   const Superelement before = test::reduced(set, {});
   set.unknowns.push_back({-1, 0});
@@ -202,7 +205,7 @@ TEST_CASE("A full set of one unknown pattern drops empty unknowns") {
   CHECK(difference(before.stiffness, after.stiffness) < 1e-14);
 }
 
-TEST_CASE("Damping and points of matrices") {
+TEST_CASE("Damping matrices and points are reduced with the body") {
   MatrixSet set = test::beam_set(2);
   set.damping = SparseColumns(1e-4 * set.stiffness);
   MatrixOptions options;
@@ -215,7 +218,7 @@ TEST_CASE("Damping and points of matrices") {
   options.points = {node};
   const Superelement body = test::reduced(set, options);
   CHECK(difference(1e-4 * body.stiffness, body.damping) < 1e-9);
-  // The middle of a beam with its right end raised by w, clamped: w / 2 and the slope 3 w / (2 L).
+  // If the clamped right end of a beam is raised by w, its middle has the displacement w / 2 and the slope 3 w / (2 L).
   CHECK(body.points.at("middle").shapes(1, 7) == Approx(0.5));
   CHECK(body.points.at("middle").shapes(5, 7) == Approx(0.75));
   options.damping_ratios = {0.02};
@@ -223,7 +226,7 @@ TEST_CASE("Damping and points of matrices") {
   CHECK(difference(body.damping, test::reduced(set, options).damping) > 0.01);
 }
 
-TEST_CASE("Residual vectors make static answers of points exact") {
+TEST_CASE("Residual vectors make the static response at points exact") {
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {60})};
   options.modes.count = 2;
@@ -235,18 +238,19 @@ TEST_CASE("Residual vectors make static answers of points exact") {
   options.points = {point};
   const Superelement body = test::reduced(test::beam_set(5), options);
   REQUIRE(body.residual_vectors == 2);
-  // Clamped beam of length L with a force at a: w = F a^3 b^3 / (3 EI L^3), slope F a^2 b^2 (b - a) / (2 EI L^3).
+  // A beam of length L, clamped at both ends, with a force at a has w = F a^3 b^3 / (3 EI L^3) and the slope F a^2 b^2
+  // (b - a) / (2 EI L^3) there.
   const double a = 0.8, b = 1.2, L = 2, EI = 3e4;
   const Eigen::MatrixXd shapes = body.points.at("quarter").shapes.rightCols(body.modes());
   const Eigen::VectorXd stiffness = body.stiffness.diagonal().tail(body.modes());
   const Eigen::VectorXd answer = stiffness.cwiseInverse().cwiseProduct(shapes.row(1).transpose());
   CHECK(shapes.row(1).dot(answer) == Approx(std::pow(a * b / L, 3) / (3 * EI)).epsilon(1e-9));
   CHECK(shapes.row(5).dot(answer) == Approx(a * a * b * b * (b - a) / (2 * EI * L * L * L)).epsilon(1e-9));
-  options.modes.count.reset();  // all modes have the answer
+  options.modes.count.reset();  // all modes together have the complete response
   CHECK_THROWS_WITH(test::reduced(test::beam_set(5), options), Contains("points.quarter") && Contains("leave nothing"));
 }
 
-TEST_CASE("The geometric stiffness of the file belongs to the spin that the user tells") {
+TEST_CASE("The geometric stiffness of the file belongs to the spin that the user states") {
   MatrixSet set = test::beam_set();
   MatrixOptions options;
   options.spin = Eigen::Vector3d(0, 0, 50);

@@ -1,4 +1,4 @@
-// Recovered quantities, stress, cells and the inertia of foreign matrices, against the reduction of the mesh.
+// Compares quantities, stress, cells and inertia from matrices of other programs with the reduction of the mesh.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
@@ -68,7 +68,7 @@ TEST_CASE("Stress of a body with one interface vanishes in rigid motions up to r
   CHECK(test::faults_of(matrix_set_of(test::reduced(test::twisted_block(), options))).empty());
 }
 
-TEST_CASE("Rows of quantities get names, and some are chosen by their numbers") {
+TEST_CASE("Rows of quantities get names, and can be chosen by their numbers") {
   RecoveredQuantities quantities = {{"q", {{"r1", "r2"}, {"Pa", "N"}, Eigen::MatrixXd::Identity(2, 3)}}};
   name_rows({{"q", {{"x", "y"}, {}, "rows"}}}, quantities);
   CHECK(quantities["q"].rows == std::vector<std::string>{"x", "y"});
@@ -81,7 +81,7 @@ TEST_CASE("Rows of quantities get names, and some are chosen by their numbers") 
   CHECK_THROWS_WITH(name_rows({{"p", {{"x"}, {}, "rows"}}}, quantities), Contains("no quantity 'p'"));
 }
 
-TEST_CASE("Inertia of matrices is relieved as that of their mesh") {
+TEST_CASE("Inertia relief of matrices equals that of their mesh") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 2);
   options.inertia_relief = true;
@@ -105,15 +105,16 @@ TEST_CASE("Inertia of matrices is relieved as that of their mesh") {
   CHECK(without.inertia_answer.missing.norm() > 1e-3 * without.inertia_answer.whole.norm());
 }
 
-TEST_CASE("A beam of nodes with rotations answers its own acceleration exactly") {
-  // Held at one end, a beam of consistent mass under g along z has the energy W = rho^2 g^2 L^5 / (40 EI).
+TEST_CASE("The response of a beam of nodes with rotations to its own acceleration is exact") {
+  // A beam that is clamped at one end has the energy W = rho^2 g^2 L^5 / (40 EI) under g along z.
   MatrixOptions options;
   options.interfaces = {test::tied("root", {10})};
   options.modes.count = 1;
   options.inertia_relief = true;
   const Superelement body = test::reduced(test::beam_set(8), options);
-  const double closed = 9 * 32.0 / (20 * 2e4);                             // twice the energy: rho = 3, L = 2, EI = 2e4
-  CHECK(body.inertia_answer.whole(8, 8) == Approx(closed).epsilon(1e-4));  // elements lack their own bending, 7e-6
+  const double closed = 9 * 32.0 / (20 * 2e4);  // twice the energy: rho = 3, L = 2, EI = 2e4
+  // The elements lack the deflection between their nodes, a share of 7e-6.
+  CHECK(body.inertia_answer.whole(8, 8) == Approx(closed).epsilon(1e-4));
   CHECK(std::abs(body.inertia_answer.missing(8, 8)) < 1e-6 * closed);
 }
 
@@ -130,7 +131,7 @@ TEST_CASE("Cells between nodes become cells of the superelement's mesh") {
   CHECK(body.mesh.cells == cells);
 }
 
-TEST_CASE("Weights of any size tie nodes as their ratios do") {
+TEST_CASE("Only the ratios of weights matter for a tie of nodes") {
   const Mesh mesh = test::twisted_block();
   MatrixOptions options;
   options.interfaces = {test::tied("a", test::node_numbers(mesh, "x0"), Tie::average)};

@@ -1,4 +1,4 @@
-// Sound matrices pass every check, and their mass properties are those of the body.
+// Tests that correct matrices pass every check, and that their mass properties are those of the body.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -35,7 +35,7 @@ TEST_CASE("A beam of two nodes passes every check") {
   CHECK(test::value_of(found, "positions") < 1e-9);
 }
 
-TEST_CASE("The mass properties of a beam are those of a line of mass") {
+TEST_CASE("The mass properties of a beam are those of a uniform line") {
   const MatrixSet set = test::beam_set(10);
   const SetMass mass = mass_of(study_matrices(set, 1));
   CHECK(mass.mass() == Approx(6).epsilon(1e-12));  // 3 kg/m, 2 m
@@ -46,14 +46,14 @@ TEST_CASE("The mass properties of a beam are those of a line of mass") {
   CHECK(mass.odd < 1e-12);
 }
 
-TEST_CASE("The matrices of a mesh pass, whatever the axes of their nodes") {
+TEST_CASE("The matrices of a mesh pass with any axes of their nodes") {
   MatrixSet set = in_SI(test::matrices_of(test::twisted_block()));
   CHECK(test::faults_of(set) == "");
   test::turn_nodes(set);
   CHECK(test::faults_of(set) == "");
 }
 
-TEST_CASE("A reduced body is proven by its file's numbers") {
+TEST_CASE("A reduced body is verified with the numbers of its file") {
   const int modes = GENERATE(0, 6);
   const Superelement body = reduced_block(modes);
   const MatrixSet set = matrix_set_of(body);
@@ -65,7 +65,7 @@ TEST_CASE("A reduced body is proven by its file's numbers") {
   CHECK(test::value_of(found, "shape_rigid_motions") < 1e-10);
 }
 
-TEST_CASE("Empty unknowns are left out by name") {
+TEST_CASE("Empty unknowns are left out and named") {
   MatrixSet set = in_SI(test::beam_set(2));
   for (SparseColumns* matrix : {&set.stiffness, &set.mass}) {
     Eigen::MatrixXd larger = Eigen::MatrixXd::Zero(19, 19);
@@ -83,7 +83,7 @@ TEST_CASE("Empty unknowns are left out by name") {
   CHECK(found.subjects[0].lines[0] == "1 unknown has neither stiffness nor mass: node 77 y");
 }
 
-TEST_CASE("A body of modes alone, rigid ones included, is verified by its shapes") {
+TEST_CASE("A body that has only modes, including rigid ones, is verified by its shapes") {
   const MatrixSet beam = test::beam_set(10);
   const MatrixStudy study = study_matrices(beam, 1);
   REQUIRE(study.modes);
@@ -99,7 +99,7 @@ TEST_CASE("A body of modes alone, rigid ones included, is verified by its shapes
   modal.stiffness = test::sparse(squares.asDiagonal());
   modal.mass = test::sparse(Eigen::MatrixXd::Identity(count, count));
   NodalShapes shapes;
-  // Four points around each section: u = u_node + theta x arm.
+  // Each section has four points, with u = u_node + theta x arm.
   const Eigen::MatrixXd u = nodal_motions(beam, false) * study.modes->vectors;
   const Eigen::MatrixXd theta = nodal_motions(beam, true) * study.modes->vectors;
   shapes.points.resize(3, 44);

@@ -1,4 +1,4 @@
-// One fault after the other in matrices that are sound otherwise; each is found by name.
+// Each test introduces one error into correct matrices; the verification must name it.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -16,14 +16,14 @@ MatrixSet declared(MatrixSet set) {
   return set;
 }
 
-/// Returns a beam of ten elements, nodes 10 to 110, on a frame: x along the body.
+/// Returns a beam of ten elements along x, with nodes 10 to 110.
 MatrixSet sound_beam() { return declared(test::beam_set(10)); }
 
 void exchange_positions(MatrixSet& set, Eigen::Index a, Eigen::Index b) {
   set.positions.col(a).swap(set.positions.col(b));
 }
 
-/// Turns the unknowns of a node in the matrices alone.
+/// Rotates the unknowns of a node in the matrices, but not its declared axes.
 void turn_matrices_at(MatrixSet& set, int node, const Eigen::Matrix3d& turn) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Identity(set.size(), set.size());
   for (const int first : {0, 3}) {
@@ -55,9 +55,10 @@ TEST_CASE("A negative mass is named") {
   CHECK_THAT(test::faults_of(set), Contains("the mass is not positive") && Contains("node 50 z has the largest part"));
 }
 
-TEST_CASE("A spring to the ground is found at its unknown, and counts the motions that it holds") {
+TEST_CASE("A spring to the ground is found at its unknown, with the number of motions that it holds") {
   MatrixSet set = sound_beam();
-  test::add_to(set.stiffness, 15, 15, 1e-3 * set.stiffness.coeff(15, 15));  // node 30 rx: turns about x alone
+  // Node 30 rx holds the rotation about x alone.
+  test::add_to(set.stiffness, 15, 15, 1e-3 * set.stiffness.coeff(15, 15));
   const std::string faults = test::faults_of(set);
   CHECK_THAT(
       faults,
@@ -66,13 +67,13 @@ TEST_CASE("A spring to the ground is found at its unknown, and counts the motion
   CHECK_THAT(faults, !Contains("positions"));
 }
 
-TEST_CASE("A held node lets no rigid motion pass") {
+TEST_CASE("If a node is held, all rigid motions cause force") {
   MatrixSet set = sound_beam();
   for (int c = 0; c < 6; ++c) test::add_to(set.stiffness, c, c, set.stiffness.coeff(c, c));
   CHECK_THAT(test::faults_of(set), Contains("6 of 6 rigid motions cause force; most at node 10"));
 }
 
-TEST_CASE("Positions in another unit of length than the matrices are told with their unit") {
+TEST_CASE("If positions and matrices have different units of length, both units are named") {
   MatrixSet set = sound_beam();
   const auto [factor, words] =
       GENERATE(table<double, std::string>({{1e3, "positions look like millimetres where the matrices are in metres"},
@@ -80,7 +81,7 @@ TEST_CASE("Positions in another unit of length than the matrices are told with t
                                            {1 / 0.0254, "positions look like inches where the matrices are in metres"},
                                            {7, "lengths of the matrices are 0.142857 times those of the positions"}}));
   set.positions *= factor;
-  set.has_units = false;  // one finding about units is enough
+  set.has_units = false;  // suppresses the second finding about units
   const std::string faults = test::faults_of(set);
   CHECK_THAT(faults, Contains(words) && Contains("the positions or axes of the nodes do not fit the stiffness"));
   CHECK_THAT(faults, !Contains("--units"));
@@ -94,7 +95,7 @@ TEST_CASE("Exchanged nodes are named") {
                                        Contains("node 80 1 m off (where node 30 stands)"));
 }
 
-TEST_CASE("Exchanged nodes are named in a mesh, whose nodes have no rotations") {
+TEST_CASE("Exchanged nodes are named in a mesh as well, whose nodes have no rotations") {
   MatrixSet set = declared(test::matrices_of(test::twisted_block()));
   REQUIRE(test::faults_of(set) == "");
   exchange_positions(set, 3, 30);
@@ -102,7 +103,7 @@ TEST_CASE("Exchanged nodes are named in a mesh, whose nodes have no rotations") 
              Contains("2 nodes are not where the matrices have them") && Contains("node 4 ") && Contains("node 31 "));
 }
 
-TEST_CASE("Positions in turned axes are told with their angle") {
+TEST_CASE("Positions in rotated axes are reported with the angle") {
   MatrixSet mesh = declared(test::matrices_of(test::twisted_block()));
   mesh.positions = quarter_turn * mesh.positions;
   CHECK_THAT(test::faults_of(mesh), Contains("positions are turned by 90 deg against the axes of the unknowns"));
@@ -111,7 +112,7 @@ TEST_CASE("Positions in turned axes are told with their angle") {
   CHECK_THAT(test::faults_of(beam), Contains("positions are turned by 90 deg against the axes of the unknowns"));
 }
 
-TEST_CASE("A node whose unknowns have other axes is named") {
+TEST_CASE("A node whose unknowns have undeclared axes is named") {
   MatrixSet set = sound_beam();
   turn_matrices_at(set, 4, quarter_turn);
   CHECK_THAT(test::faults_of(set),
@@ -127,7 +128,7 @@ TEST_CASE("Mass without stiffness is named") {
   CHECK_THAT(test::faults_of(set), Contains("scalar 1"));
 }
 
-TEST_CASE("Stiffness without mass is told, and is no fault") {
+TEST_CASE("Stiffness without mass is reported, but is not an error") {
   MatrixSet set = declared(test::beam_set(4));
   for (SparseColumns* matrix : {&set.mass}) {
     Eigen::MatrixXd lumped = Eigen::MatrixXd::Zero(30, 30);
@@ -145,7 +146,7 @@ TEST_CASE("Stiffness without mass is told, and is no fault") {
 
 namespace {
 
-/// Numbers of a set of translations in other units, given as multiples of these in SI units.
+/// Factors from SI units to the units of a set of translations.
 void in_units(double length, double mass, double time, MatrixSet& set) {
   set.positions *= length;
   set.stiffness *= mass / (time * time);
@@ -157,22 +158,22 @@ void in_units(double length, double mass, double time, MatrixSet& set) {
 
 TEST_CASE("Units that were not declared are guessed") {
   MatrixSet set = test::matrices_of(test::twisted_block());
-  REQUIRE(test::faults_of(set) == "");  // SI numbers are plausible
+  REQUIRE(test::faults_of(set) == "");  // numbers in SI units are plausible
   const auto [name, length, mass, time] = GENERATE(table<std::string, double, double, double>(
       {{"mm-t-s", 1e3, 1e-3, 1}, {"mm-kg-ms", 1e3, 1, 1e3}, {"in-slinch-s", 1 / 0.0254, 1 / 175.126836, 1}}));
   in_units(length, mass, time, set);
   CHECK_THAT(test::faults_of(set), Contains("its units are probably " + name + ": `--units " + name + "`"));
-  set.has_units = true;  // declared: not questioned
+  set.has_units = true;  // declared units are not questioned
   CHECK_THAT(test::faults_of(set), !Contains("--units"));
 }
 
-TEST_CASE("A stated mass that is not that of the matrix is told with both") {
+TEST_CASE("If the stated mass differs from that of the matrix, both are reported") {
   MatrixSet set = sound_beam();
   set.stated = StatedMass{5, {1, 0, 0}, Eigen::Vector3d(0.02, 2, 2).asDiagonal()};
   CHECK_THAT(test::faults_of(set), Contains("the mass matrix has 6 kg, the file states 5 kg"));
 }
 
-TEST_CASE("Damping in proportion to the mass brakes the whole body") {
+TEST_CASE("Damping proportional to the mass damps rigid motions, which is reported") {
   MatrixSet set = sound_beam();
   set.damping = 1e-4 * set.stiffness;
   CHECK(test::faults_of(set) == "");

@@ -1,5 +1,5 @@
-// Frequencies and effective masses against those of beams (W. C. Young, Roark's Formulas, table of natural
-// frequencies), and sets side by side.
+// Compares frequencies and effective masses with those of beams (W. C. Young, Roark's Formulas, table of natural
+// frequencies), and sets with each other.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -34,7 +34,7 @@ const Finding& finding_of(const VerifiedSubject& subject, const std::string& nam
 
 }  // namespace
 
-TEST_CASE("Free and held frequencies are those of the beam") {
+TEST_CASE("Free and clamped frequencies are those of the beam") {
   MatrixSet set = test::beam_set(20);
   set.interfaces["root"] = 0;
   const MatrixStudy study = study_matrices(set, 1);
@@ -44,12 +44,12 @@ TEST_CASE("Free and held frequencies are those of the beam") {
   REQUIRE(held);
   CHECK(held->held.size() == 6);
   CHECK(signed_frequency(held->modes.eigenvalues(0)) == Approx(beam_frequency(1.875104)).epsilon(1e-5));
-  // 61.31 % of the mass moves with the first mode of a cantilever across it.
+  // The first bending mode of a cantilever has 61.31 % of the mass as effective mass.
   CHECK(held->effective_mass(0, 2) / 6 == Approx(0.6131).epsilon(1e-3));
   CHECK(held->effective_mass(0, 0) < 1e-9);
 }
 
-TEST_CASE("Effective masses are those that the reduction found on the mesh") {
+TEST_CASE("Effective masses equal those of the reduction of the mesh") {
   const Superelement body = test::reduced(test::twisted_block(), test::steel_body(Tie::rigid, Tie::rigid, 6));
   const MatrixSet set = matrix_set_of(body);
   const std::optional<HeldModes> held = held_modes(study_matrices(set, 1), 6);
@@ -58,7 +58,7 @@ TEST_CASE("Effective masses are those that the reduction found on the mesh") {
   CHECK(held->whole_mass(4) == Approx(body.inertia(1, 1)).epsilon(1e-9));
 }
 
-TEST_CASE("Sparse methods and dense ones find the same") {
+TEST_CASE("Sparse and dense methods give the same results") {
   const MatrixSet set = test::beam_set(120);  // 726 unknowns
   const MatrixStudy study = study_matrices(set, 1);
   REQUIRE(study.modes);
@@ -70,7 +70,7 @@ TEST_CASE("Sparse methods and dense ones find the same") {
   CHECK_THAT(test::faults_of(declared), Contains("the stiffness is not positive") && Contains("node 110 z"));
 }
 
-TEST_CASE("A body is itself") {
+TEST_CASE("A body that is compared with itself has no differences") {
   const VerifiedSubject found = compare(test::beam_set(6), test::beam_set(6));
   for (const Finding& finding : found.findings) {
     INFO(finding.check.name);
@@ -81,7 +81,7 @@ TEST_CASE("A body is itself") {
   }));
 }
 
-TEST_CASE("A reduced body has the modes of its mesh at common places") {
+TEST_CASE("A reduced body has the modes of its mesh at common points") {
   const Mesh mesh = test::twisted_block();
   const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, 20));
   const VerifiedSubject found = compare(matrix_set_of(body), test::matrices_of(mesh));
@@ -91,7 +91,7 @@ TEST_CASE("A reduced body has the modes of its mesh at common places") {
   CHECK(finding_of(found, "against_first_shape").check.value < 1e-3);
 }
 
-TEST_CASE("Different bodies are told apart") {
+TEST_CASE("Different bodies are distinguished") {
   MatrixSet stiffer = test::beam_set(6);
   stiffer.stiffness *= 1.5;
   stiffer.mass *= 1.01;
@@ -113,7 +113,7 @@ std::vector<std::string> mode_lines(const VerifiedSubject& found) {
   return lines;
 }
 
-/// Returns a beam as a superelement between its ends, whose points on the axis have displacements alone.
+/// Returns a beam as a superelement between its ends. Its points on the axis have displacements only.
 MatrixSet reduced_beam(double stiffness, double mass) {
   MatrixSet set = test::beam_set(6);
   set.stiffness *= stiffness;
@@ -125,7 +125,7 @@ MatrixSet reduced_beam(double stiffness, double mass) {
 
 }  // namespace
 
-TEST_CASE("Torsion, which moves no place on the axis, is paired by rotations") {
+TEST_CASE("Torsional modes, which move no point on the axis, are paired by rotations") {
   const double stiffer = GENERATE(1.01, 1.3);
   const VerifiedSubject found = compare(reduced_beam(stiffer, 1), reduced_beam(1, 1));
   const std::vector<std::string> lines = mode_lines(found);
@@ -141,9 +141,9 @@ TEST_CASE("Torsion, which moves no place on the axis, is paired by rotations") {
   }
 }
 
-TEST_CASE("A mode that moves no place in common has no counterpart") {
+TEST_CASE("A mode that moves no common point has no counterpart") {
   MatrixSet set = test::beam_set(6), twin = set;
-  for (MatrixSet* each : {&set, &twin}) {  // rotations become scalars, whose counterparts are not known
+  for (MatrixSet* each : {&set, &twin}) {  // rotations become scalars, whose counterparts are unknown
     int scalars = 0;
     for (NodalUnknown& u : each->unknowns)
       if (u.is_rotation()) u = {-1, scalars++};
@@ -158,21 +158,21 @@ TEST_CASE("A mode that moves no place in common has no counterpart") {
 }
 
 TEST_CASE("Inertias are compared entry by entry about one point") {
-  // A body that is moved has the same inertia about its own centre, and another one about that of its twin.
+  // A displaced body has the same inertia about its own centre, and a different one about the centre of the other body.
   MatrixSet moved = test::beam_set(6);
   moved.positions.row(1).array() += 0.1;
   const VerifiedSubject shifted = compare(moved, test::beam_set(6));
   CHECK_FALSE(finding_of(shifted, "against_centre").passed());
   CHECK_THAT(finding_of(shifted, "against_inertia").fault, Contains("their inertias about (1, 0, 0) m differ: x"));
-  // m d^2 = 6 * 0.01 kg m^2 about x, whose own moment, 2e-4 kg m^2, is below the floor of 1e-4 of the largest, 2 kg
-  // m^2.
+  // The difference about x is m d^2 = 6 * 0.01 kg m^2. The own moment about x, 2e-4 kg m^2, is not above the limit of
+  // 1e-4 of the largest, 2 kg m^2.
   CHECK(finding_of(shifted, "against_inertia").check.value == Approx(0.06 / 2e-4).epsilon(0.02));
   MatrixSet twisted = test::beam_set(6);
   for (Eigen::Index k = 3; k < twisted.size(); k += 6) twisted.mass.coeffRef(k, k) *= 1.5;
   CHECK_THAT(finding_of(compare(twisted, test::beam_set(6)), "against_inertia").fault, Contains("xx is"));
 }
 
-TEST_CASE("The verdict's MAC is that of the shapes on the mesh") {
+TEST_CASE("The MAC in the verdict is that of the shapes on the mesh") {
   const Mesh mesh = test::twisted_block();
   const int modes = GENERATE(2, 8);
   const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, modes));
@@ -186,12 +186,12 @@ TEST_CASE("The verdict's MAC is that of the shapes on the mesh") {
   REQUIRE(shapes);
   const Eigen::MatrixXd crossed = shapes->transpose() * (of_full.mass * of_full.modes->vectors.rightCols(20));
   for (Eigen::Index k = 0; k < 3; ++k) {
-    // Frequencies of this body are more than 1 % apart, so that each mode has one counterpart.
+    // The frequencies of this body differ by more than 1 %, so that each mode has one counterpart.
     const double lacking = 1 - crossed.row(k).cwiseAbs2().maxCoeff(), found = 1 - body.adequacy->mode_mac(k);
     INFO(modes << " modes, shape " << k + 1 << ": true " << lacking << ", found " << found);
-    // The part of a shape that omitted modes have follows from a static answer, to about lambda / lambda_omitted = 0.15
-    // here. Its mixture with the other free modes is less certain (modes 1 and 3 of 8, which are 33 % apart): it
-    // concerns the last of the four digits that the verdict prints.
+    // The part of a shape in the omitted modes follows from a static response, with an error of about lambda /
+    // lambda_omitted = 0.15 here. Its mixture with other free modes is less certain (modes 1 and 3 of 8, which differ
+    // by 33 %); it affects the last of the four digits that the verdict prints.
     CHECK(std::abs(found - lacking) < 0.15 * lacking + 1e-4);
   }
 }

@@ -1,4 +1,4 @@
-// Results of a verification, by name.
+// Functions that return results of a verification by name.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ inline std::string faults_of(const reduce::Verification& verification) {
 
 inline std::string faults_of(const reduce::MatrixSet& set) { return faults_of(reduce::verify(set)); }
 
-/// Returns the number of a check; not a number if it was not made.
+/// Returns the number of a check, or NaN if it was not made.
 inline double value_of(const reduce::Verification& verification, const std::string& name) {
   for (const reduce::VerifiedSubject& subject : verification.subjects)
     for (const reduce::Finding& finding : subject.findings)

@@ -69,7 +69,7 @@ std::string as_msh(const reduce::Mesh& mesh) {
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order) {
   GmshSession session;
   session.read("test", [&] {
-    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // written STEP files are in mm
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // gmsh writes STEP files in mm
     gmsh::open(source);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
     gmsh::option::setNumber("Mesh.ElementOrder", order);

@@ -12,7 +12,7 @@ namespace bielle::test {
 
 namespace {
 
-// The numbers that a pattern captures, match after match.
+// Returns the texts that the groups of a pattern capture, for each match.
 std::vector<std::vector<std::string>> captures(const std::string& text, const std::string& pattern) {
   std::vector<std::vector<std::string>> result;
   const std::regex expression(pattern);
@@ -26,8 +26,8 @@ void replace(std::string& text, const std::string& old, const std::string& by) {
     text.replace(at, old.size(), by);
 }
 
-// An instance of the product definition `part` with the representation `shape` in those of its assembly, moved from
-// one placement to another.
+// Returns the entities of an instance of the product definition `part` with the representation `shape` in its assembly,
+// moved from one placement to another.
 std::string instance(int first, const std::string& name, const std::string& assembly, const std::string& part,
                      const std::string& assembly_shape, const std::string& shape, const std::string& from,
                      const std::string& to) {
@@ -51,8 +51,8 @@ std::string step_assembly(const TemporaryFolder& folder) {
   gmsh_convert(geo, path, 0, 1);
   std::ifstream file(path);
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  // gmsh writes one assembly of both boxes under its own names. The second box becomes the part of a finger, whose
-  // product is added with its two instances.
+  // gmsh writes an assembly of both boxes with names that it chooses. The second box becomes the part of a finger; the
+  // product of the finger is added with two instances.
   const auto uses = captures(text, "NEXT_ASSEMBLY_USAGE_OCCURRENCE\\('\\d+','','',(#\\d+),(#\\d+),\\$\\)");
   const auto products = captures(text, "PRODUCT\\('([^']+)'");
   const auto shapes = captures(text, "REPRESENTATION_RELATIONSHIP\\('','',(#\\d+),(#\\d+)\\)");
@@ -77,7 +77,7 @@ std::string step_assembly(const TemporaryFolder& folder) {
   added += instance(90030, "right", root, "#90003", root_shape, "#90005", origin, "#90010");
   text.insert(text.rfind("ENDSEC;"), added);
   const char* const names[] = {"gripper", "arm", "tip"};
-  for (const int k : {2, 1, 0}) replace(text, products[k][0], names[k]);  // the first name is a part of the others
+  for (const int k : {2, 1, 0}) replace(text, products[k][0], names[k]);  // the first name is contained in the others
   return folder.file("gripper.step", text);
 }
 

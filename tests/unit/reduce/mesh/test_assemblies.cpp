@@ -1,4 +1,4 @@
-// Solids of assemblies: selected by number and name, glued, named, listed.
+// Tests of the solids of assemblies: selection by number and name, gluing, names, lists.
 #include <regex>
 
 #include "import_support.hpp"
@@ -19,7 +19,8 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-// Boxes of 2, 1 and 1 m along x, the last of them apart; the first one is a physical volume that has a side.
+// Boxes with lengths of 2, 1 and 1 m along x, the last of which is separate. The first one is a physical volume with a
+// physical surface.
 const char* const boxes =
     "SetFactory(\"OpenCASCADE\");\n"
     "Box(1) = {0, 0, 0, 2, 1, 1}; Box(2) = {2, 0, 0, 1, 1, 1}; Box(3) = {4, 0, 0, 1, 1, 1};\n";
@@ -57,7 +58,7 @@ TEST_CASE("one of several solids is selected by its number") {
   CHECK_THAT(mesh_volume(import(boxes_request(path, {"volume_2"}))), WithinRel(1.0, 1e-12));
 }
 
-TEST_CASE("solids of gmsh's own kernel are selected as well, and refused by glue") {
+TEST_CASE("solids of gmsh's own kernel can be selected, but not glued") {
   const TemporaryFolder folder;
   const std::string path = folder.file("boxes.geo",
                                        "Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2};\n"
@@ -91,9 +92,9 @@ TEST_CASE("solids that touch are glued, and each keeps its name for regions") {
              Contains("'volume_3' is not a physical volume of the geometry") && Contains("did you mean 'volume_"));
 }
 
-TEST_CASE("glue divides faces that touch in a part, and joins solids in a row") {
+TEST_CASE("glue divides faces that touch partly, and joins solids in a row") {
   const TemporaryFolder folder;
-  // A plate on which two blocks stand; each covers a part of it.
+  // Two blocks stand on a plate; each covers a part of its face.
   MeshRequest wanted = boxes_request(folder.file("blocks.geo",
                                                  "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 4, 1, 0.5};\n"
                                                  "Box(2) = {0.5, 0.2, 0.5, 1, 0.5, 1}; Box(3) = {3, 0, 0.5, 1, 1, 1};\n"
@@ -107,7 +108,7 @@ TEST_CASE("glue divides faces that touch in a part, and joins solids in a row") 
   CHECK_THAT(area_vector(mesh, "under").z(), WithinRel(-4.0, 1e-12));
 }
 
-TEST_CASE("solids that touch at different places remain in pieces without those between them") {
+TEST_CASE("solids remain separate pieces if those between them are not selected") {
   const TemporaryFolder folder;
   MeshRequest wanted = boxes_request(folder.file("boxes.geo", boxes), {});
   wanted.glue = true;
@@ -129,7 +130,7 @@ TEST_CASE("solids that overlap are refused by name with their common volume") {
              Contains("solids overlap: volume 1 and volume 2 by 1e-10 m^3, 10 % of the smaller one; solids that"));
   wanted.solids = {{"2", ""}, {"3", ""}};
   CHECK_THAT(mesh_volume(import(wanted)), WithinRel(2e-9, 1e-10));
-  // A shaft in a block without a bore, and twice the same solid.
+  // A shaft in a block that has no bore, and the same solid twice.
   wanted = boxes_request(folder.file("shaft.geo",
                                      "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 2, 2, 2};\n"
                                      "Box(2) = {0.5, 0.5, 0.5, 1, 1, 1};\n"),
@@ -145,7 +146,7 @@ TEST_CASE("glue has nothing to do on a single solid") {
   CHECK_THAT(mesh_volume(import(wanted)), WithinRel(1.0, 1e-12));
 }
 
-TEST_CASE("numbers have precedence over physical volumes, which keep what is left of them") {
+TEST_CASE("numbers take precedence over physical volumes, which keep their other solids") {
   const TemporaryFolder folder;
   const std::string path =
       folder.file("boxes.geo", std::string(boxes) +
@@ -164,7 +165,7 @@ TEST_CASE("numbers have precedence over physical volumes, which keep what is lef
   CHECK_THAT(import_message(pair), Contains("the physical surface 'end' belongs to none of the selected solids"));
 }
 
-TEST_CASE("wrong selections of solids are answered with the nearest ones") {
+TEST_CASE("messages about wrong selections of solids suggest the nearest names") {
   const TemporaryFolder folder;
   const std::string path = folder.file("boxes.geo", boxes);
   for (const char* number : {"0", "-1", "1.5", "4", "99999999999", "1e9"})
@@ -178,7 +179,7 @@ TEST_CASE("wrong selections of solids are answered with the nearest ones") {
              Contains("volume 2 is selected twice, by '2' and by 'volume_2'"));
 }
 
-TEST_CASE("surfaces by shape are those of the selected solids alone") {
+TEST_CASE("surfaces by shape are found on the selected solids only") {
   const TemporaryFolder folder;
   const std::string path = folder.file("boxes.geo", boxes);
   MeshRequest wanted = boxes_request(path, {"1"});
@@ -207,7 +208,7 @@ TEST_CASE("solids of a STEP assembly have the names of its products and instance
   wanted.size = 0.005;
   wanted.solids = {{"arm", "volume"}};
   CHECK_THAT(mesh_volume(import(wanted)), WithinRel(1e-5, 1e-10));
-  wanted.solids = {{"right", "volume"}};  // an instance
+  wanted.solids = {{"right", "volume"}};  // name of an instance
   const Mesh right = import(wanted);
   CHECK_THAT(mesh_volume(right), WithinRel(2e-6, 1e-10));
   CHECK(right.points.row(2).minCoeff() > 0.05 - 1e-9);

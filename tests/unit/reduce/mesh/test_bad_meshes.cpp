@@ -1,4 +1,4 @@
-// Messages about a geometry or mesh that cannot be reduced.
+// Tests of the messages about a geometry or mesh that cannot be reduced.
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -25,7 +25,7 @@ namespace {
 
 const std::vector<std::string> corners = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
 
-// The message for a mesh written as text, with its key in a body file.
+// Returns the message about a mesh that is written as text, with the key in a body file.
 std::string message_for(const std::string& text, const std::string& name = "body.msh") {
   const TemporaryFolder folder;
   MeshRequest wish = request(folder.file(name, text));
@@ -65,7 +65,7 @@ TEST_CASE("a flat element is named") {
       Contains("1 of 2 elements is degenerate (no volume); the first is element 2 at"));
 }
 
-TEST_CASE("a body in pieces is described, and whether the pieces touch") {
+TEST_CASE("the message about a body in pieces describes them, and whether they touch") {
   const std::vector<std::string> apart = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "4 0 0", "6 0 0", "4 2 0", "4 0 2"};
   CHECK_THAT(
       message_for(msh(apart, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
@@ -76,8 +76,8 @@ TEST_CASE("a body in pieces is described, and whether the pieces touch") {
              Contains("in 2 pieces") && Contains("3 pairs of nodes at the same place: merge the nodes"));
 }
 
-TEST_CASE("coincident nodes within one piece are a crack") {
-  // Two bricks that share the lower half of the nodes of their common face only: nodes on it are split.
+TEST_CASE("coincident nodes within one piece are reported as a crack") {
+  // Two bricks share only the lower half of the nodes of their common face; the other nodes exist twice.
   Mesh mesh = box_mesh({{2, 1, 1}, {2, 2, 2}, false});
   const CellBlock solids = mesh.blocks.front();
   int split = -1;
@@ -101,7 +101,7 @@ TEST_CASE("coincident nodes within one piece are a crack") {
   CHECK(coincident_nodes(sound, FaceTable(sound)).pairs == 0);
 }
 
-TEST_CASE("parts that hang together by an edge or a node only give a warning") {
+TEST_CASE("parts that are connected by an edge or a node only give a warning") {
   // Two tetrahedra with a common edge.
   Mesh mesh;
   mesh.points.resize(3, 6);
@@ -123,8 +123,8 @@ TEST_CASE("parts that hang together by an edge or a node only give a warning") {
       loose_joints(box_mesh({{1, 1, 1}, {2, 2, 2}, true}), FaceTable(box_mesh({{1, 1, 1}, {2, 2, 2}, true}))).empty());
 }
 
-TEST_CASE("wedges of order 1 give a warning, which tells single layers") {
-  // There are two wedges on top of each other, and one next to the upper one.
+TEST_CASE("wedges of order 1 give a warning, which counts single layers") {
+  // Two wedges are on top of each other, and a third one is next to the upper one.
   Mesh mesh;
   mesh.points.resize(3, 11);
   for (int layer = 0; layer < 3; ++layer) {
@@ -150,7 +150,7 @@ TEST_CASE("wedges of order 1 give a warning, which tells single layers") {
   CHECK(stiff_wedges(box, FaceTable(box)).empty());
 }
 
-TEST_CASE("cells that stand twice are refused, in whatever order their nodes are") {
+TEST_CASE("duplicate cells are refused, in any order of their nodes") {
   const std::vector<std::string> five = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
   CHECK_THAT(
       message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 3 1 4", "4 2 1 1 2 1 3 4"})),
@@ -182,7 +182,7 @@ TEST_CASE("a tetrahedron on the nodes of a hexahedron is refused, though they sh
       Contains("the body is in 2 pieces that share no faces") && Contains("the pieces overlap, elements 1 and 2 at"));
 }
 
-TEST_CASE("pieces on one another are told as such") {
+TEST_CASE("the message about overlapping pieces says so") {
   const std::vector<std::string> twice = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 0", "1 0 0", "0 1 0", "0 0 1"};
   CHECK_THAT(
       message_for(msh(twice, {"4 2 1 1 1 2 3 4", "4 2 1 1 6 7 5 8"})),
@@ -194,14 +194,14 @@ TEST_CASE("pieces on one another are told as such") {
   CHECK_THAT(message_for(msh(crossing, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
              Contains("the pieces overlap, elements 1 and 2 at (0.25, 0.25, 0.25) m for example") &&
                  !Contains("merge the nodes"));
-  // The box of one piece contains the other, which stands in a corner outside of the tetrahedron.
+  // The bounding box of one piece contains the other, which is in a corner outside of the tetrahedron.
   const std::vector<std::string> apart = {"0 0 0",    "1 0 0",   "0 1 0",   "0 0 1",
                                           ".9 .9 .9", "1 .9 .9", ".9 1 .9", ".9 .9 1"};
   CHECK_THAT(message_for(msh(apart, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
              Contains("share no nodes") && !Contains("overlap"));
 }
 
-TEST_CASE("cells of other types are named with what is supported") {
+TEST_CASE("the message about cells of other types lists the supported ones") {
   std::vector<std::string> points;
   for (int i = 0; i < 18; ++i) points.push_back(std::to_string(i % 3) + " " + std::to_string(i / 3) + " 0");
   CHECK_THAT(message_for(msh(points, {"13 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18"})),
@@ -212,7 +212,7 @@ TEST_CASE("cells of other types are named with what is supported") {
              Contains("holds 1 cell of type 'Pyramid 14', which is not supported"));
 }
 
-TEST_CASE("a surface mesh and a mesh without cells are no bodies") {
+TEST_CASE("a surface mesh and a mesh without cells are refused") {
   CHECK_THAT(message_for(msh(corners, {"2 2 1 1 1 2 3"})),
              Contains("holds a surface mesh only (1 cell); a body needs tetrahedra"));
   CHECK_THAT(message_for(msh(corners, {"15 2 1 1 1"})), Contains("holds no cells"));
@@ -226,7 +226,7 @@ TEST_CASE("linear and quadratic tetrahedra do not mix") {
 }
 
 TEST_CASE(
-    "quadrilaterals that are no faces, other surface cells, and triangles of two orders on one surface, are refused") {
+    "quadrilaterals that are not faces, other surface cells, and triangles of two orders on one surface are refused") {
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
   CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"}, {"2 9 \"skin\""})),
              Contains("surface group 'skin' holds a quadrilateral that is no face of a solid cell"));
@@ -242,18 +242,18 @@ TEST_CASE(
              Contains("mixes triangles with 3 and with 6 nodes on one surface"));
 }
 
-TEST_CASE("an element that names a node which is not there is refused") {
+TEST_CASE("an element with a missing node is refused") {
   CHECK_THAT(message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 77"})),
              StartsWith("geometry: '") && Contains("cannot be read"));
 }
 
-TEST_CASE("a triangle that is no face of a solid is refused when it belongs to a group") {
+TEST_CASE("a triangle in a group that is not a face of a solid is refused") {
   const std::vector<std::string> points = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "2 2 2"};
   CHECK_THAT(message_for(msh(points, {"4 2 1 1 1 2 3 4", "2 2 9 1 1 2 5"}, {"2 9 \"skin\""})),
              Contains("surface group 'skin' holds a triangle that is no face of a solid cell"));
 }
 
-TEST_CASE("a linear triangle on a quadratic solid becomes a face with its mid-side nodes") {
+TEST_CASE("a linear triangle on a quadratic solid becomes a face with mid-side nodes") {
   const TemporaryFolder folder;
   const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
                                            ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
@@ -280,13 +280,13 @@ TEST_CASE("files that are missing, empty or of another kind are named") {
   CHECK_THAT(message_for("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n1 0 0 0\n"), StartsWith("geometry: '"));
 }
 
-TEST_CASE("an import after a failed one works") {
+TEST_CASE("an import succeeds after a failed one") {
   const TemporaryFolder folder;
   CHECK_THAT(message_for("Point(1) = {0, 0;\n", "body.geo"), Contains("line 1"));
   CHECK(import(small_box(folder)).solid_count() > 0);
 }
 
-TEST_CASE("a geometry needs volumes, and a size where it has none of its own") {
+TEST_CASE("a geometry needs volumes, and a mesh size unless it defines one") {
   const TemporaryFolder folder;
   MeshRequest flat = request(folder.file("flat.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0,0,0, 1,1};"));
   CHECK_THAT(import_message(flat), Contains("holds no volume: a body is a solid"));
@@ -298,7 +298,7 @@ TEST_CASE("a geometry needs volumes, and a size where it has none of its own") {
              StartsWith("geometry: ") && Contains("say how fine to mesh it, e.g. mesh: {size: 3e-3}"));
 }
 
-TEST_CASE("a mesh takes no size and no order") {
+TEST_CASE("a size or an order is refused for a mesh") {
   const TemporaryFolder folder;
   MeshRequest wish = request(folder.file("one.msh", msh(corners, {"4 2 1 1 1 2 3 4"})));
   wish.mesh_subject = "mesh";
@@ -309,7 +309,7 @@ TEST_CASE("a mesh takes no size and no order") {
   CHECK_THAT(import_message(wish), Contains("is a mesh already"));
 }
 
-TEST_CASE("unknown groups are answered with the nearest one, before meshing") {
+TEST_CASE("the message about an unknown group suggests the nearest one, before meshing") {
   const TemporaryFolder folder;
   MeshRequest wish = small_box(folder, groups_geo);
   wish.surfaces = {{"crwon", {std::string("crwon")}, "loads.gas.surface"}};
@@ -332,7 +332,7 @@ TEST_CASE("unknown groups are answered with the nearest one, before meshing") {
 
 TEST_CASE("a physical surface without triangles is refused when it is used") {
   const TemporaryFolder folder;
-  // Format 4.1: surface 5 stands among the entities and in group 9, but has no cells.
+  // In this file of format 4.1, surface 5 is an entity and belongs to group 9, but has no cells.
   MeshRequest wish =
       request(folder.file("one.msh",
                           "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 9 \"empty\"\n$EndPhysicalNames\n"
@@ -344,7 +344,7 @@ TEST_CASE("a physical surface without triangles is refused when it is used") {
   CHECK_THAT(import_message(wish), StartsWith("interfaces.end.surface: the physical surface 'empty' is empty"));
 }
 
-TEST_CASE("an unknown unit of length is answered with those that are known") {
+TEST_CASE("the message about an unknown unit of length lists the known ones") {
   const TemporaryFolder folder;
   MeshRequest wish = small_box(folder);
   wish.length_unit = "mn";
@@ -359,7 +359,7 @@ TEST_CASE("a body of more than 150 m or less than 1 mm gives a warning") {
   CHECK_THAT(implausible_size(box_mesh({{2e-4, 1e-4, 1e-4}, {1, 1, 1}, false})), Contains("0.0002 m long"));
 }
 
-TEST_CASE("nothing of gmsh or OpenCASCADE reaches standard output") {
+TEST_CASE("gmsh and OpenCASCADE print nothing on standard output") {
   const TemporaryFolder folder;
   std::cout.flush();
   std::fflush(stdout);
@@ -377,7 +377,7 @@ TEST_CASE("nothing of gmsh or OpenCASCADE reaches standard output") {
   CHECK(std::filesystem::file_size(folder / "out") == 0);
 }
 
-TEST_CASE("the quality of a regular and of a right-angled tetrahedron") {
+TEST_CASE("the quality of a regular and of a right-angled tetrahedron is the closed form") {
   Mesh mesh;
   mesh.points.resize(3, 4);
   mesh.points << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
@@ -387,6 +387,6 @@ TEST_CASE("the quality of a regular and of a right-angled tetrahedron") {
   CHECK(regular.shortest_edge == Approx(std::sqrt(8)).margin(1e-14));
   mesh.points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
   mesh.blocks.front().nodes = Eigen::Vector4i(0, 1, 2, 3);
-  // At a corner of the large face: sqrt(2) * 1 / (1 * sqrt(2) * sqrt(2)).
+  // The least value, at a corner of the large face, is sqrt(2) * 1 / (1 * sqrt(2) * sqrt(2)).
   CHECK(mesh_quality(mesh).least_scaled_jacobian == Approx(std::sqrt(0.5)).margin(1e-14));
 }

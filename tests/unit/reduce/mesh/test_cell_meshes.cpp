@@ -1,4 +1,4 @@
-// Meshes of hexahedra, wedges and pyramids: volumes, faces, groups, faults and their messages.
+// Tests of meshes of hexahedra, wedges and pyramids: volumes, faces, groups, and messages about errors.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -40,14 +40,14 @@ Mesh mesh_of(CellType type, const Eigen::Vector3d& size, const std::array<int, 3
 }
 
 double volume_of_divergence(const Mesh& mesh, const FaceTable& faces) {
-  // Gauss: 3 V = sum of x . n dA over plane faces.
+  // By Gauss' theorem 3 V is the sum of x . n dA over plane faces.
   double sum = 0;
   for (const int face : faces.boundary())
     sum += mesh.points.col(faces.corners(face)[0]).dot(area_vector(mesh.points, faces.corners(face)));
   return sum / 3;
 }
 
-// Boundary faces of a box of bricks: those on x and y, and those on z.
+// Numbers of boundary faces of a box of bricks: those normal to x and y, and those normal to z.
 int boundary_count(CellType type, const std::array<int, 3>& n) {
   const bool wedge = vertex_count(type) == 6;
   return 2 * (n[0] * n[2] + n[1] * n[2]) + (wedge ? 4 : 2) * n[0] * n[1];
@@ -65,7 +65,7 @@ std::set<std::array<double, 3>> places(const Mesh& mesh, const std::string& grou
   return result;
 }
 
-TEST_CASE("a box of any type of cells has its volume, its faces and their outward sides") {
+TEST_CASE("a box of any type of cells has its volume, and faces that point outward") {
   const std::array<int, 3> bricks{3, 2, 2};
   for (const CellType type : types) {
     CAPTURE(cell_name(type));
@@ -85,7 +85,7 @@ TEST_CASE("a box of any type of cells has its volume, its faces and their outwar
       area += area_of(mesh.points, corners);
       Eigen::Vector3d middle = Eigen::Vector3d::Zero();
       for (const int node : corners) middle += mesh.points.col(node) / corners.size();
-      // All points of a box are behind each of its sides.
+      // All points of a box are on the inner side of each face.
       CHECK(area_vector(mesh.points, corners).dot(Eigen::Vector3d(0.15, 0.1, 0.05) - middle) < 0);
       CHECK(faces.nodes(face).size() == node_count(faces.type(face)));
       CHECK(faces.find(corners) == face);
@@ -104,7 +104,7 @@ TEST_CASE("a file with cells of any type is imported with its groups") {
     wish.surfaces = {selection("plane", PlaneSelector{{0.3, 0, 0}, {1, 0, 0}}),
                      selection("top", PlaneSelector{{0, 0, 0.1}, {0, 0, 1}}), selection("physical", std::string("z0"))};
     const Mesh mesh = import(wish);
-    // gmsh sorts the points by the groups in which they are met first.
+    // gmsh sorts the points by the groups in which they occur first.
     CHECK(mesh.point_count() == whole.point_count());
     CHECK(mesh.blocks.front().type == type);
     CHECK(mesh_volume(mesh) == Approx(0.006).epsilon(1e-13));
@@ -159,8 +159,8 @@ TEST_CASE("an inverted cell of any type is named by its number in the file") {
   for (const CellType type : types) {
     CAPTURE(cell_name(type));
     Mesh mesh = mesh_of(type, {2, 2, 2}, {2, 2, 2});
-    const int first_number = 1;  // the solid group stands first in the file
-    // Cell 2 is mirrored: its base and its top change places; of a pyramid, the base runs the other way round.
+    const int first_number = 1;  // the group of solid cells is the first one in the file
+    // Cell 2 is inverted by an exchange of its base and its top; the base of a pyramid is reversed instead.
     CellBlock& solids = mesh.blocks.front();
     auto cell = solids.nodes.col(2);
     const int vertices = vertex_count(type);
@@ -180,7 +180,7 @@ TEST_CASE("an inverted cell of any type is named by its number in the file") {
   }
 }
 
-TEST_CASE("a hexahedron that is folded at one corner is inverted, and with a collapsed edge degenerate") {
+TEST_CASE("a hexahedron that is folded at one corner is inverted, and one with a collapsed edge is degenerate") {
   Mesh mesh = mesh_of(CellType::hex8, {1, 1, 1}, {1, 1, 1});
   mesh.points.col(7) = Eigen::Vector3d(0.2, 0.2, 0.2);
   CHECK_THAT(message_for(mesh), Contains("1 of 1 elements is inverted (negative volume, or folded at a corner)"));
@@ -201,7 +201,7 @@ TEST_CASE("a flat cell of any type, and a mirrored mesh, are refused") {
   }
 }
 
-TEST_CASE("hexahedra with 8 and 20 nodes in one volume are noticed") {
+TEST_CASE("hexahedra with 8 and 20 nodes in one volume are refused") {
   const Mesh one = mesh_of(CellType::hex20, {1, 1, 1}, {1, 1, 1});
   std::string text = as_msh(one);
   const std::string end = "$EndElements";
@@ -212,8 +212,8 @@ TEST_CASE("hexahedra with 8 and 20 nodes in one volume are noticed") {
              Contains("mixes hexahedra with different numbers of nodes in one volume (1 hex20 of 2 cells)"));
 }
 
-TEST_CASE("quadratic maps of the box: volumes of curved cells are exact") {
-  // x -> x + a y^2 e_x has determinant 1; x -> (x + a x^2, y, z) moves the end from 1 to 1 + a.
+TEST_CASE("the volume of curved cells is exact under quadratic maps of a box") {
+  // The map x -> x + a y^2 e_x has determinant 1; the map x -> (x + a x^2, y, z) moves the end from 1 to 1 + a.
   for (const CellType type : {CellType::hex20, CellType::hex27, CellType::wedge15, CellType::pyramid13}) {
     CAPTURE(cell_name(type));
     const auto shear = [](const Eigen::Vector3d& x) {
@@ -233,7 +233,7 @@ Eigen::Vector3d ring(const Eigen::Vector3d& x) {
   return {radius * std::cos(angle), radius * std::sin(angle), x.z()};
 }
 
-TEST_CASE("the volume of a curved ring converges with order 4, of straight cells with order 2") {
+TEST_CASE("the volume of a ring converges with order 4 for curved cells, with order 2 for straight ones") {
   const double exact = 0.75 * std::numbers::pi;
   for (const CellType type : types) {
     CAPTURE(cell_name(type));
@@ -253,7 +253,7 @@ TEST_CASE("cylinders and planes are found on quadrilaterals of a mesh without na
     wish.surfaces = {selection("inner", CylinderSelector{{0, 0, 0}, {0, 0, 1}, 1}),
                      selection("end", PlaneSelector{{0, 0, 0}, {0, 1, 0}})};
     const Mesh mesh = import(wish);
-    // Chords of an arc of angle pi/16: 2 sin(pi/32) each.
+    // Each chord of an arc with the angle pi/16 has the length 2 sin(pi/32).
     CHECK(corner_area(mesh, "inner") == Approx(16 * std::sin(std::numbers::pi / 32)).epsilon(1e-12));
     CHECK((area_vector(mesh, "end") - Eigen::Vector3d(0, -1, 0)).norm() < 1e-12);
     wish.surfaces = {selection("inner", CylinderSelector{{0, 0, 0}, {0, 0, 1}, 0.7})};
@@ -263,7 +263,7 @@ TEST_CASE("cylinders and planes are found on quadrilaterals of a mesh without na
   }
 }
 
-TEST_CASE("straightening mends an inverted second-order cell and leaves sound ones alone") {
+TEST_CASE("straightening repairs an inverted second-order cell and does not change valid ones") {
   for (const CellType type : {CellType::hex20, CellType::hex27, CellType::wedge15, CellType::pyramid13}) {
     CAPTURE(cell_name(type));
     Mesh sound = mesh_of(type, {1, 1, 1}, {2, 2, 1}, ring);
@@ -285,10 +285,10 @@ TEST_CASE("straightening mends an inverted second-order cell and leaves sound on
   }
 }
 
-TEST_CASE("a distorted cell whose nodes are in the middle is the straight one, as the end of straightening assumes") {
+TEST_CASE("a distorted cell with nodes in the middle of its edges equals the straight one, as straightening assumes") {
   for (const CellType type : {CellType::hex20, CellType::hex27, CellType::wedge15, CellType::pyramid13}) {
     CAPTURE(cell_name(type));
-    // A map that is linear on each edge of one brick, and not affine.
+    // The map is linear on each edge of one brick, but not affine.
     const auto warp = [](const Eigen::Vector3d& x) {
       return Eigen::Vector3d(x.x() + 0.2 * x.y() * x.z(), x.y() - 0.1 * x.x() * x.z(), x.z() + 0.3 * x.x() * x.y());
     };
@@ -305,7 +305,7 @@ TEST_CASE("a distorted cell whose nodes are in the middle is the straight one, a
   }
 }
 
-TEST_CASE("the scaled Jacobian is 1 of regular cells, and smaller of others") {
+TEST_CASE("the scaled Jacobian of regular cells is 1, and that of others is smaller") {
   const auto quality = [](const Mesh& mesh) { return mesh_quality(mesh).least_scaled_jacobian; };
   CHECK(quality(mesh_of(CellType::hex20, {2, 2, 2}, {2, 2, 2})) == Approx(1).epsilon(1e-14));
   CHECK(quality(mesh_of(CellType::hex8, {5, 1, 1}, {1, 1, 1})) == Approx(1).epsilon(1e-14));
@@ -313,7 +313,7 @@ TEST_CASE("the scaled Jacobian is 1 of regular cells, and smaller of others") {
   CHECK(quality(mesh_of(CellType::hex8, {1, 1, 1}, {1, 1, 1}, [](const Eigen::Vector3d& x) {
           return Eigen::Vector3d(x.x() + std::sqrt(0.75) * x.y(), 0.5 * x.y(), x.z());
         })) == Approx(0.5).epsilon(1e-14));
-  // Right-angled triangles with legs of one length: sin(45 degrees) at the acute corners.
+  // The triangles are right-angled with equal legs, and have sin(45 degrees) at the acute corners.
   CHECK(quality(mesh_of(CellType::wedge6, {1, 1, 1}, {1, 1, 1})) ==
         Approx(2 / std::sqrt(3.0) * std::sqrt(0.5)).epsilon(1e-14));
   Mesh wedge;
@@ -353,7 +353,7 @@ TEST_CASE("a box of any type is cut into halves with their faces") {
   }
 }
 
-TEST_CASE("A plate of hexahedra, wedges or pyramids one element thick is known from one of two") {
+TEST_CASE("A plate of hexahedra, wedges or pyramids is recognised as one element thick, or as two") {
   for (const CellType type : types) {
     CAPTURE(cell_name(type));
     CHECK(share_one_element_thick(mesh_of(type, {6, 6, 2}, {6, 6, 2})) < 0.02);

@@ -1,4 +1,4 @@
-// Geometries that are cut before they are meshed.
+// Tests of geometries that are cut before they are meshed.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 
@@ -12,7 +12,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-// Two materials along the bar, with surfaces at its ends and along one side.
+// A bar of two materials, with surfaces at its ends and along one side.
 const char* const bar =
     "SetFactory(\"OpenCASCADE\");\n"
     "Box(1) = {0, 0, 0, 60, 10, 10};\n"
@@ -35,7 +35,7 @@ MeshRequest bar_request(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("a geometry is cut in its planes, in its own unit, and its groups keep what they had") {
+TEST_CASE("a geometry is cut by planes in its own unit, and groups keep their parts") {
   const TemporaryFolder folder;
   const MeshRequest wanted = bar_request(folder.file("bar.geo", bar));
   const Mesh mesh = import(wanted);
@@ -48,7 +48,7 @@ TEST_CASE("a geometry is cut in its planes, in its own unit, and its groups keep
   REQUIRE(cut.cuts.size() == 2);
   for (const MeshCut& surface : cut.cuts) CHECK(surface.distance < 1e-12);
   CHECK_THAT(corner_area(cut.pieces[0].mesh, "pieces.cut_1"), WithinRel(1e-4 * std::sqrt(1.04), 1e-12));
-  // A prism of 30 mm on one side and 28 mm on the other.
+  // The prism is 30 mm long on one side and 28 mm on the other.
   CHECK_THAT(mesh_volume(cut.pieces[0].mesh), WithinRel(2.9e-6, 1e-12));
   CHECK_THAT(mesh_volume(cut.pieces[2].mesh), WithinRel(2e-6, 1e-12));
   CHECK(cut.pieces[0].mesh.groups.contains("soft"));
@@ -71,7 +71,7 @@ TEST_CASE("a STEP file is cut as well") {
   CHECK_THAT(corner_area(cut.pieces[0].mesh, "pieces.cut_1"), WithinRel(1e-4, 1e-12));
 }
 
-TEST_CASE("a geometry of gmsh's own kernel is cut along faces of elements") {
+TEST_CASE("a geometry of gmsh's own kernel is cut along element faces") {
   const TemporaryFolder folder;
   MeshRequest wanted = request(folder.file("box.geo",
                                            "Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2};\n"

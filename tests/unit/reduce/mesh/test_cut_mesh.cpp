@@ -1,4 +1,4 @@
-// Meshes that are cut along planes: cells, surfaces, names, and planes that cannot cut.
+// Tests of meshes that are cut along planes: cells, surfaces, names, and planes that cannot cut.
 #include <cmath>
 #include <set>
 
@@ -32,7 +32,7 @@ double volume(const CutMesh& cut) {
 
 }  // namespace
 
-TEST_CASE("a box is cut where faces of its cells lie in the planes") {
+TEST_CASE("a box is cut exactly if faces of its cells lie in the planes") {
   const Mesh mesh = box_mesh({{1, 0.2, 0.1}, {8, 2, 1}});
   const CutMesh cut = cut_mesh(mesh, {across("cut_1", 0.25), across("cut_2", 0.75)}, "x0");
   REQUIRE(cut.pieces.size() == 3);
@@ -41,14 +41,14 @@ TEST_CASE("a box is cut where faces of its cells lie in the planes") {
   REQUIRE(cut.cuts.size() == 2);
   for (const MeshCut& surface : cut.cuts) {
     CHECK(surface.distance < 1e-15);
-    // Out of the lower piece along x, into it from the other.
+    // The normal points out of the lower piece along x, and into it from the other piece.
     const double outward = area_vector(cut.pieces[surface.pieces[0]].mesh, surface.group).x();
     CHECK(outward == Approx(0.02).epsilon(1e-12));
     CHECK(area_vector(cut.pieces[surface.pieces[1]].mesh, surface.group).x() == Approx(-0.02).epsilon(1e-12));
   }
   CHECK(cut.cuts[1].pieces == std::array<int, 2>{1, 2});
   CHECK(cut.cuts[1].group == "pieces.cut_2");
-  // Groups of surfaces are in the pieces that they bound, and groups of volumes in all pieces.
+  // Groups of surfaces belong to the pieces that they bound, and groups of volumes to all pieces.
   CHECK(cut.pieces[0].mesh.groups.contains("x0"));
   CHECK_FALSE(cut.pieces[1].mesh.groups.contains("x0"));
   CHECK_FALSE(cut.pieces[1].mesh.groups.contains("x1"));
@@ -61,7 +61,7 @@ TEST_CASE("a box is cut where faces of its cells lie in the planes") {
   CHECK(side == Approx(-0.1).epsilon(1e-12));
 }
 
-TEST_CASE("pieces are counted from the first interface on") {
+TEST_CASE("pieces are numbered from the first interface") {
   const Mesh mesh = box_mesh({{1, 0.2, 0.1}, {8, 2, 1}});
   const CutMesh cut = cut_mesh(mesh, {across("b", 0.75), across("a", 0.25)}, "x1");
   CHECK(cut.pieces[0].mesh.groups.contains("x1"));
@@ -70,7 +70,7 @@ TEST_CASE("pieces are counted from the first interface on") {
   CHECK(cut.cuts[0].pieces == std::array<int, 2>{0, 1});
 }
 
-TEST_CASE("elsewhere a cut follows the faces of cells next to the plane, and the pieces fill the body") {
+TEST_CASE("otherwise a cut follows the cell faces next to the plane, and the pieces fill the body") {
   const Mesh mesh = distorted_box_mesh({{1, 0.3, 0.3}, {12, 3, 3}}, 0.2);
   for (const double x : {0.37, 0.52, 0.61}) {
     const CutPlane oblique = plane("cut_1", {x, 0.15, 0.15}, {1, 0.3, -0.2});
@@ -79,16 +79,16 @@ TEST_CASE("elsewhere a cut follows the faces of cells next to the plane, and the
     REQUIRE(cut.cuts.size() == 1);
     CHECK(volume(cut) == Approx(mesh_volume(mesh)).epsilon(1e-12));
     CHECK(cut.cuts[0].distance > 1e-3);
-    CHECK(cut.cuts[0].distance < 0.15);  // the longest edge is some 0.2
-    // Both sides are the same surface: its area vector is that of a closed section.
+    CHECK(cut.cuts[0].distance < 0.15);  // the longest edge is about 0.2
+    // Both sides are the same surface, and its area vector is that of a closed section.
     const Eigen::Vector3d a = area_vector(cut.pieces[0].mesh, "pieces.cut_1");
     CHECK((a + area_vector(cut.pieces[1].mesh, "pieces.cut_1")).norm() < 1e-15);
     CHECK(a.x() == Approx(0.09).epsilon(1e-12));
   }
 }
 
-TEST_CASE("a plane that cuts both legs of a body makes a cut of each") {
-  // A horseshoe: half of a ring in the plane of x and y, both ends at y = 0.
+TEST_CASE("a plane through both legs of a body makes one cut in each") {
+  // The body is half of a ring in the plane of x and y, with both ends at y = 0.
   const Mesh mesh = box_mesh({{1, 0.1, 0.1}, {16, 1, 1}}, [](const Eigen::Vector3d& x) {
     const double angle = std::acos(-1.0) * x.x(), radius = 1 + x.y();
     return Eigen::Vector3d(-radius * std::cos(angle), radius * std::sin(angle), x.z());
@@ -101,15 +101,15 @@ TEST_CASE("a plane that cuts both legs of a body makes a cut of each") {
   CHECK(volume(cut) == Approx(mesh_volume(mesh)).epsilon(1e-12));
 }
 
-TEST_CASE("planes that cannot cut the body say why") {
+TEST_CASE("the message about a plane that cannot cut the body tells the reason") {
   const Mesh mesh = box_mesh({{1, 0.2, 0.2}, {8, 2, 2}});
   const auto message = [&](const std::vector<CutPlane>& planes) {
     return message_of<InputError>([&] { cut_mesh(mesh, planes, "x0"); });
   };
   CHECK_THAT(message({across("cut_1", 0.5), across("far", 1.5)}),
              Contains("pieces.far: 'far' does not cut the body, which lies between -1.5 m and -0.5 m"));
-  // The end face is no cut.
+  // A plane in the end face is not a cut.
   CHECK_THAT(message({across("end", 1)}), Contains("does not cut the body"));
-  // Two planes in one layer of cells have no piece between them.
+  // There is no piece between two planes in one layer of cells.
   CHECK_THAT(message({across("cut_1", 0.5), across("cut_2", 0.502)}), Contains("less than an element apart"));
 }

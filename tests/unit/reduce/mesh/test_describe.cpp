@@ -1,4 +1,4 @@
-// `--list`: the contents of a geometry or mesh, and a check that its lines select the surfaces that they describe.
+// Tests of `--list`: the contents of a geometry or mesh; its lines must select the surfaces that they describe.
 #include <regex>
 
 #include "import_support.hpp"
@@ -27,12 +27,12 @@ const std::string meshes = std::string(BIELLE_SOURCE_DIR) + "/meshes/";
 
 }  // namespace
 
-TEST_CASE("the connecting rod as STEP: unit, volume, bores and the lines that select them") {
+TEST_CASE("the list of the connecting rod in STEP has its unit, volume and bores, and the lines that select them") {
   const std::string text = list(meshes + "conrod.step");
   CHECK_THAT(text, Contains("a geometry; it says that its unit is mm"));
   CHECK_THAT(text, Contains("physical surfaces (for interfaces and loads): none; select by shape"));
   CHECK_THAT(text, Contains("m^3, from (-0.034, -0.034, -0.013) m to (0.2175, 0.034, 0.013) m"));
-  // Area 2 pi r w of the bores: 0.00392071 and 0.00152053 m^2.
+  // The bores have the area 2 pi r w: 0.00392071 and 0.00152053 m^2.
   CHECK_THAT(text, Contains("cylinder with radius 0.024 m about (0, 0, 0) m along (0, 0, 1), area 0.003921 m^2"));
   CHECK_THAT(text, Contains("surface: {cylinder: {point: [0, 0, 0], axis: [0, 0, 1], radius: 0.024}}"));
   CHECK_THAT(text, Contains("cylinder with radius 0.011 m about (0.2, 0, 0) m along (0, 0, 1), area 0.001521 m^2"));
@@ -40,7 +40,7 @@ TEST_CASE("the connecting rod as STEP: unit, volume, bores and the lines that se
   CHECK_THAT(text, Contains("torus with radii"));
 }
 
-TEST_CASE("the connecting rod in gmsh's language: its groups, and its unit where it is told") {
+TEST_CASE("the list of the connecting rod in gmsh's language has its groups, and its unit if it is stated") {
   CHECK_THAT(list(meshes + "conrod.geo", "mm"),
              Contains("read in mm as length_unit says") && Contains("physical volumes (for regions): rod\n") &&
                  Contains("physical surfaces (for interfaces and loads): bore_big, bore_small\n") &&
@@ -85,7 +85,7 @@ TEST_CASE("a mesh of hexahedra is listed with cells, groups and the shapes of it
                        Contains("patch 6: plane normal to") && Contains("; in base\n"));
 }
 
-TEST_CASE("a mesh that cannot be reduced is listed with the reason") {
+TEST_CASE("a mesh that cannot be reduced is listed, with the reason") {
   const TemporaryFolder folder;
   std::vector<std::string> points;
   for (int i = 0; i < 14; ++i) points.push_back(std::to_string(i % 3) + " " + std::to_string(i / 3) + " 0");

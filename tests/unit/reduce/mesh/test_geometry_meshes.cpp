@@ -1,4 +1,4 @@
-// Keys of `mesh` that change the cells of a geometry: hexahedra, sizes from curvature, healing.
+// Tests of the keys of `mesh` that change the cells of a geometry: hexahedra, sizes from curvature, healing.
 #include <numbers>
 #include <set>
 
@@ -27,7 +27,7 @@ MeshRequest hexahedral(const std::string& path, double size, int order = 2) {
   return result;
 }
 
-// Types of the solid cells.
+// Returns the types of the solid cells.
 std::set<CellType> solid_types(const Mesh& mesh) {
   std::set<CellType> types;
   const SolidCells cells(mesh);
@@ -35,7 +35,7 @@ std::set<CellType> solid_types(const Mesh& mesh) {
   return types;
 }
 
-// Number of corner nodes on the circle of a radius about the z axis at z = 0.
+// Returns the number of corner nodes on a circle about the z axis at z = 0.
 int nodes_on_circle(const Mesh& mesh, double radius) {
   int count = 0;
   for (const auto& x : mesh.points.colwise())
@@ -55,7 +55,8 @@ TEST_CASE("blocks are meshed by grids of hexahedra") {
   CHECK(mesh_quality(mesh).longest_edge < 0.5 + 1e-9);
   CHECK(solid_types(import(hexahedral(box, 0.5, 1))) == std::set{CellType::hex8});
 
-  // A quarter of a tube: quadratic edges of 90/8 degrees leave a relative error of the area of about angle^4 / 100.
+  // The body is a quarter of a tube. Quadratic edges of 90/8 degrees cause a relative error of the area of about
+  // angle^4 / 100.
   const std::string tube = folder.file(
       "tube.geo", open_cascade +
                       "Cylinder(1) = {0, 0, 0, 0, 0, 1, 2, Pi/2}; Cylinder(2) = {0, 0, 0, 0, 0, 1, 1, Pi/2};\n"
@@ -78,14 +79,14 @@ TEST_CASE("glued blocks have one grid") {
   CHECK_THAT(mesh_quality(mesh).least_scaled_jacobian, WithinRel(1.0, 1e-9));
 }
 
-TEST_CASE("other geometries are meshed by tetrahedra that are divided into hexahedra") {
+TEST_CASE("other geometries are meshed with tetrahedra, which are divided into hexahedra") {
   const TemporaryFolder folder;
   const std::string cylinder = folder.file("cylinder.geo", open_cascade + "Cylinder(1) = {0, 0, 0, 0, 0, 5, 1};\n");
   for (const int order : {1, 2}) {
     const Mesh mesh = import(hexahedral(cylinder, 0.4, order));
     CHECK(solid_types(mesh) == std::set{order == 1 ? CellType::hex8 : CellType::hex20});
     CHECK(mesh_quality(mesh).least_scaled_jacobian > 0.05);
-    // Straight edges of length s leave s^2 / 6 r^2 of the area of a circle at most; here s = 0.4.
+    // Straight edges of length s cause an error of at most s^2 / 6 r^2 of the area of a circle; here s = 0.4.
     CHECK_THAT(mesh_volume(mesh), WithinRel(5 * std::numbers::pi, order == 1 ? 0.4 * 0.4 / 6 : 1e-3));
   }
   MeshRequest angle = hexahedral(
@@ -96,7 +97,7 @@ TEST_CASE("other geometries are meshed by tetrahedra that are divided into hexah
   CHECK_THAT(mesh_volume(mesh), WithinRel(6.0, 1e-12));
 }
 
-TEST_CASE("hexahedra that a geometry prescribes are kept") {
+TEST_CASE("hexahedra that a geometry defines are kept") {
   const TemporaryFolder folder;
   const Mesh mesh =
       import(hexahedral(folder.file("layers.geo",
@@ -108,7 +109,7 @@ TEST_CASE("hexahedra that a geometry prescribes are kept") {
   CHECK(mesh.solid_count() == 6);
 }
 
-TEST_CASE("sizes of hexahedra on surfaces and surfaces by shape") {
+TEST_CASE("hexahedra have the sizes given for surfaces, and surfaces by shape are found") {
   const TemporaryFolder folder;
   MeshRequest wanted =
       hexahedral(folder.file("cylinder.geo", open_cascade + "Cylinder(1) = {0, 0, 0, 0, 0, 5, 1};\n"), 0.6);
@@ -137,7 +138,7 @@ TEST_CASE("curvature gives the number of edges on a circle, down to a twentieth 
 
 TEST_CASE("healing removes a sliver of a face, and keeps the solid") {
   const TemporaryFolder folder;
-  // A flat notch of 0.01 in the upper face of a block, whose side faces are slivers.
+  // The upper face of a block has a notch of depth 0.01, whose side faces are slivers.
   const std::string geo =
       folder.file("notch.geo", open_cascade +
                                    "Box(1) = {0, 0, 0, 50, 20, 10}; Box(2) = {20, 0, 9.99, 10, 20, 1};\n"
@@ -170,7 +171,7 @@ TEST_CASE("geometries that cannot be healed are refused") {
   CHECK_THAT(import_message(wanted), Contains("small against `size`: give it too"));
 }
 
-TEST_CASE("meshes refuse the keys that change the cells of a geometry") {
+TEST_CASE("the keys that change the cells of a geometry are refused for meshes") {
   const TemporaryFolder folder;
   gmsh_convert(folder.file("box.geo", open_cascade + "Box(1) = {0, 0, 0, 2, 1, 1};\n"), folder / "box.msh", 0.5, 1);
   const MeshRequest plain = request(folder / "box.msh");

@@ -1,4 +1,4 @@
-// Geometries and meshes of gmsh's formats become meshes in metres with named groups.
+// Tests of the import of geometries and meshes of gmsh's formats: meshes in metres with named groups.
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -17,7 +17,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-// A box of 0.3 x 0.2 x 0.1 units times `scale`, with or without names.
+// Returns a box of 0.3 x 0.2 x 0.1 units times `scale`, with or without names.
 std::string box_geo(double scale, bool named = true) {
   return fmt::format(
       "SetFactory(\"OpenCASCADE\"); s = {0};\n"
@@ -36,7 +36,7 @@ MeshRequest box_request(const std::string& path, int order) {
   return result;
 }
 
-// Least-squares slope of log(error) over log(h).
+// Returns the slope of log(error) over log(h) by least squares.
 double slope(const std::vector<double>& h, const std::vector<double>& error) {
   double x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = 0; i < h.size(); ++i) {
@@ -49,7 +49,7 @@ double slope(const std::vector<double>& h, const std::vector<double>& error) {
 
 }  // namespace
 
-TEST_CASE("a named box keeps its volume, its faces and their outward sides") {
+TEST_CASE("a box with named groups has its volume, and faces that point outward") {
   const TemporaryFolder folder;
   const std::string path = folder.file("box.geo", box_geo(1));
   for (int order : {1, 2}) {
@@ -57,7 +57,7 @@ TEST_CASE("a named box keeps its volume, its faces and their outward sides") {
     const CellType solid = order == 1 ? CellType::tet4 : CellType::tet10;
     REQUIRE(mesh.block(solid) != nullptr);
     CHECK(mesh.solid_count() == mesh.block(solid)->nodes.cols());
-    // Straight elements fill a box exactly: rounding of a few thousand additions.
+    // Straight elements fill a box exactly, up to the rounding of a few thousand additions.
     CHECK_THAT(mesh_volume(mesh), WithinRel(0.006, 1e-12));
     CHECK((area_vector(mesh, "left") - Eigen::Vector3d(-0.02, 0, 0)).norm() < 1e-14);
     CHECK((area_vector(mesh, "right") - Eigen::Vector3d(0.02, 0, 0)).norm() < 1e-14);
@@ -91,7 +91,7 @@ TEST_CASE("every node of a second-order box lies in the middle of its edge, in g
     }
 }
 
-TEST_CASE("a body without physical volumes is the region all") {
+TEST_CASE("a body without physical volumes is the region 'all'") {
   const TemporaryFolder folder;
   const Mesh mesh = import(box_request(folder.file("box.geo", box_geo(1, false)), 1));
   CHECK(mesh.groups.size() == 1);
@@ -99,7 +99,7 @@ TEST_CASE("a body without physical volumes is the region all") {
   CHECK(mesh.block(CellType::tri3) == nullptr);
 }
 
-TEST_CASE("lengths are metres whatever the unit of the file") {
+TEST_CASE("lengths are metres for any unit of the file") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("box.geo", box_geo(1000));
   gmsh_convert(geo, folder / "box.msh", 60, 2);
@@ -109,11 +109,11 @@ TEST_CASE("lengths are metres whatever the unit of the file") {
   for (const std::string name : {"box.geo", "box.msh", "box.step", "box.brep", "box.unv"}) {
     CAPTURE(name);
     MeshRequest wish = request(folder / name);
-    if (name != "box.step") wish.length_unit = "mm";  // gmsh writes STEP files in mm and says so in them
+    if (name != "box.step") wish.length_unit = "mm";  // gmsh writes STEP files in mm and declares this unit
     if (!name.ends_with(".msh") && !name.ends_with(".unv")) wish.size = 0.06;
     const Mesh mesh = import(wish);
     CHECK(mesh.block(CellType::tet10) != nullptr);
-    // UNV files have 17 digits, STEP files have 15, far more than this tolerance.
+    // UNV files have 17 digits and STEP files 15, far more than this tolerance.
     CHECK_THAT(mesh_volume(mesh), WithinRel(0.006, 1e-10));
     CHECK((mesh.points.rowwise().maxCoeff() - Eigen::Vector3d(0.3, 0.2, 0.1)).norm() < 1e-10);
     if (!wish.size || name == "box.geo") {
@@ -141,7 +141,7 @@ TEST_CASE("the volume of a meshed cylinder converges to pi r^2 h, with order 2 f
       errors.push_back(std::abs(mesh_volume(mesh) / exact - 1));
     }
     CAPTURE(order, sizes, errors);
-    // The meshes are not similar to each other: a tenth of an order either way.
+    // The meshes are not similar, which changes the order by up to a tenth.
     CHECK_THAT(slope(sizes, errors), WithinRel(order == 1 ? 2.0 : 4.0, 0.1));
   }
 }
@@ -149,13 +149,14 @@ TEST_CASE("the volume of a meshed cylinder converges to pi r^2 h, with order 2 f
 TEST_CASE("the connecting rod has OpenCASCADE's volume, as .geo and as .step", "[long]") {
   const std::string folder = std::string(BIELLE_SOURCE_DIR) + "/meshes/";
   const double volume = geometry_volume(folder + "conrod.geo", "mm");
-  // OpenCASCADE integrates trimmed surfaces numerically: both differ from the limit of fine meshes by some 1e-5.
+  // OpenCASCADE integrates over trimmed surfaces numerically: both volumes differ from the limit of fine meshes by
+  // about 1e-5.
   CHECK_THAT(geometry_volume(folder + "conrod.step"), WithinRel(volume, 1e-4));
   for (const std::string name : {"conrod.geo", "conrod.step"}) {
     MeshRequest wish = request(folder + name);
     if (name == "conrod.geo") wish.length_unit = "mm";
     wish.size = 4.6e-3;
-    CHECK_THAT(mesh_volume(import(wish)), WithinRel(volume, 1e-3));  // mesh error: straightened elements at fillets
+    CHECK_THAT(mesh_volume(import(wish)), WithinRel(volume, 1e-3));  // mesh error of straightened elements at fillets
   }
 }
 
@@ -168,7 +169,7 @@ TEST_CASE("the same request gives the same mesh") {
   CHECK(one.blocks.front().nodes == other.blocks.front().nodes);
 }
 
-TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface selected by its shape") {
+TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface that is selected by shape") {
   const TemporaryFolder folder;
   const std::string path = folder.file("box.geo", box_geo(1));
   const auto smallest_edge_on = [](const Mesh& mesh, double x) {
@@ -189,7 +190,7 @@ TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface selected
   const Mesh coarse = import(wish);
   wish.sizes["left"] = {0.02, ""};
   const Mesh left = import(wish);
-  CHECK_THAT(smallest_edge_on(left, 0), WithinRel(0.02, 0.2));  // mean edge length, gmsh aims at the size
+  CHECK_THAT(smallest_edge_on(left, 0), WithinRel(0.02, 0.2));  // gmsh makes edges whose mean length is the size
   CHECK_THAT(smallest_edge_on(left, 0.3), WithinRel(smallest_edge_on(coarse, 0.3), 0.2));
   wish.sizes = {{"interfaces.end", {0.02, ""}}};
   wish.surfaces = {selection("interfaces.end", PlaneSelector{{0.3, 0, 0}, {1, 0, 0}})};
@@ -203,7 +204,7 @@ TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface selected
                                        Catch::Matchers::Contains("did you mean 'right'?"));
 }
 
-TEST_CASE("a refined mesh leaves nothing behind for the next one") {
+TEST_CASE("a refined mesh has no influence on the next one") {
   const TemporaryFolder folder;
   const MeshRequest plain = box_request(folder.file("box.geo", box_geo(1)), 1);
   const Mesh before = import(plain);
@@ -232,10 +233,10 @@ TEST_CASE("two regions share the nodes of their common face, and a group may lie
   CHECK_THAT(corner_area(mesh, "between"), WithinRel(1.0, 1e-12));
 }
 
-TEST_CASE("groups that have numbers only are named after them, sparse node numbers and unused nodes do no harm") {
+TEST_CASE("groups without names are named by their number; sparse node numbers and unused nodes are allowed") {
   const TemporaryFolder folder;
   std::string text = msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "5 5 5"}, {"4 2 7 1 1 2 3 4", "2 2 9 1 1 3 2"});
-  // Node 4 becomes node 4000000.
+  // Node 4 is renumbered to 4000000.
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{"4 0 0 1\n", "4000000 0 0 1\n"}, {"1 2 3 4\n", "1 2 3 4000000\n"}})
     text.replace(text.find(from), from.size(), to);

@@ -1,4 +1,4 @@
-// Determinants of curved second-order tetrahedra: bound, volume, and against the shape functions' definition.
+// Tests of the determinants of curved second-order tetrahedra: bounds, volume, and the definition by shape functions.
 #include <array>
 
 #include <Eigen/LU>
@@ -22,7 +22,7 @@ Eigen::Matrix3Xd straight_tet10(Random& random) {
   return x;
 }
 
-// x(xi) by the ten shape functions L (2 L - 1), 4 L_a L_b.
+// Returns x(xi) by the ten shape functions L (2 L - 1), 4 L_a L_b.
 Eigen::Vector3d place(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
   const Eigen::Vector4d l(1 - xi.sum(), xi[0], xi[1], xi[2]);
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
@@ -31,7 +31,7 @@ Eigen::Vector3d place(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
   return result;
 }
 
-// The determinant by central differences, which are exact for a quadratic map up to rounding.
+// Returns the determinant by central differences, which are exact for a quadratic map up to rounding.
 double determinant(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
   Eigen::Matrix3d jacobian;
   for (int k = 0; k < 3; ++k)
@@ -42,7 +42,7 @@ double determinant(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
 
 }  // namespace
 
-TEST_CASE("all coefficients of a straight tetrahedron are its determinant") {
+TEST_CASE("all coefficients of a straight tetrahedron equal its determinant") {
   Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Matrix3Xd x = straight_tet10(random);
@@ -51,7 +51,7 @@ TEST_CASE("all coefficients of a straight tetrahedron are its determinant") {
   }
 }
 
-TEST_CASE("the least coefficient bounds the determinant from below, the greatest from above, anywhere in the element") {
+TEST_CASE("the least and the greatest coefficient bound the determinant everywhere in the element") {
   Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     Eigen::Matrix3Xd x = straight_tet10(random);
@@ -67,12 +67,12 @@ TEST_CASE("the least coefficient bounds the determinant from below, the greatest
     for (const Eigen::Vector3d& corner :
          {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)})
       CHECK((coefficients.array() - determinant(x, corner)).abs().minCoeff() <
-            1e-13);  // corners' values are among them
+            1e-13);  // the coefficients include the values at corners
   }
 }
 
 TEST_CASE("the volume of curved elements is exact") {
-  // x -> x + a y^2 e_x has determinant 1 and is quadratic: tet10 represent it exactly, with curved sides.
+  // The map x -> x + a y^2 e_x has determinant 1 and is quadratic: tet10 represents it exactly, with curved sides.
   Box box;
   box.size = {1, 0.5, 0.25};
   box.bricks = {2, 3, 2};
@@ -80,7 +80,7 @@ TEST_CASE("the volume of curved elements is exact") {
     return Eigen::Vector3d(x + Eigen::Vector3d(0.4 * x.y() * x.y(), 0, 0));
   };
   CHECK(mesh_volume(box_mesh(box, shear)) == Approx(0.125).epsilon(1e-13));
-  // x -> (x + a x^2, y, z): the end moves from 1 to 1 + a.
+  // The map x -> (x + a x^2, y, z) moves the end from 1 to 1 + a.
   const auto stretch = [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x.x() + 0.3 * x.x() * x.x(), x.y(), x.z());
   };

@@ -1,4 +1,4 @@
-// Units of length: names, and declarations in STEP files.
+// Tests of units of length: names, and declarations in STEP files.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string step(const std::string& units, const std::string& assigned) {
 
 }  // namespace
 
-TEST_CASE("units have their names and lengths") {
+TEST_CASE("units of length are found by name") {
   CHECK(metres_per("m") == 1);
   CHECK(metres_per("mm") == 1e-3);
   CHECK(metres_per("in") == 0.0254);
@@ -34,7 +34,7 @@ TEST_CASE("units have their names and lengths") {
   CHECK_THAT(message_of<InputError>([] { metres_per("inch"); }), Catch::StartsWith("'inch' is not a unit of length"));
 }
 
-TEST_CASE("the unit of a STEP file is the length unit that its context assigns") {
+TEST_CASE("the unit of a STEP file is the unit of length that its context assigns") {
   const TemporaryFolder folder;
   const std::string mm = "#1 = ( LENGTH_UNIT() NAMED_UNIT(*)\n SI_UNIT(.MILLI., .METRE.) );\n";
   const std::string m = "#2=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n";
@@ -45,12 +45,12 @@ TEST_CASE("the unit of a STEP file is the length unit that its context assigns")
   const auto unit = [&](const std::string& text) { return step_length_unit(folder.file("part.step", text)); };
   CHECK(unit(step(mm + angle, "#1,#3")) == 1e-3);
   CHECK(unit(step(m + angle, "#3,#2")) == 1.0);
-  CHECK(unit(step(mm + inch + angle, "#5,#3")) == 0.0254);  // the mm only define the inch
-  CHECK(unit(step(mm + m, "#1,#2")) == std::nullopt);       // contradictory
+  CHECK(unit(step(mm + inch + angle, "#5,#3")) == 0.0254);  // the mm here only define the inch
+  CHECK(unit(step(mm + m, "#1,#2")) == std::nullopt);       // two units contradict each other
   CHECK(unit(step(angle, "#3")) == std::nullopt);
 }
 
-TEST_CASE("a STEP file in inches and one in metres arrive in metres, whatever length_unit says") {
+TEST_CASE("STEP files in inches and in metres are imported in metres, independently of length_unit") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("box.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, 2,1,1};");
   gmsh_convert(geo, folder / "box.step", 1, 1);

@@ -1,4 +1,4 @@
-// Meshes with several types of solid cells, and meshes whose cells do not fit together.
+// Tests of meshes with several types of solid cells, and of meshes whose cells do not fit together.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ std::string refusal(const Mesh& mesh) {
   return import_message(request(folder.file("body.msh", as_msh(mesh))));
 }
 
-// Puts the cells of another mesh into a volume of their own; nodes at one place become one node.
+// Adds the cells of another mesh as a separate volume, and merges coincident nodes.
 Mesh joined(Mesh mesh, const Mesh& other) {
   std::vector<int> number;
   std::vector<Eigen::Vector3d> points;
@@ -66,7 +66,7 @@ Mesh moved(Mesh mesh, const Eigen::Vector3d& way) {
   return mesh;
 }
 
-TEST_CASE("a box of several types of cells has its volume, its faces and their outward sides") {
+TEST_CASE("a box of several types of cells has its volume, and faces that point outward") {
   for (const int order : {1, 2}) {
     CAPTURE(order);
     const Mesh mesh = mixed_box(order, {0.3, 0.2, 0.1}, {3, 2, 2});
@@ -77,7 +77,7 @@ TEST_CASE("a box of several types of cells has its volume, its faces and their o
     CHECK_NOTHROW(check_conforming(mesh, faces));
     CHECK(loose_joints(mesh, faces).empty());
     CHECK(coincident_nodes(mesh, faces).pairs == 0);
-    double divergence = 0, area = 0;  // Gauss: 3 V = sum of x . n dA over plane faces
+    double divergence = 0, area = 0;  // by Gauss' theorem 3 V is the sum of x . n dA over plane faces
     for (const int face : faces.boundary()) {
       const Eigen::Vector3d normal = bielle::reduce::area_vector(mesh.points, faces.corners(face));
       divergence += mesh.points.col(faces.corners(face)[0]).dot(normal);
@@ -87,7 +87,7 @@ TEST_CASE("a box of several types of cells has its volume, its faces and their o
     }
     CHECK(divergence / 3 == Approx(0.006).epsilon(1e-13));
     CHECK(area == Approx(2 * (0.06 + 0.03 + 0.02)).epsilon(1e-13));
-    // Six columns of two bricks: (i + j) mod 3 = 0 hexahedra, 1 wedges, 2 pyramids.
+    // There are six columns of two bricks; (i + j) mod 3 is 0 for hexahedra, 1 for wedges, 2 for pyramids.
     for (const auto* part : {"4 hex", "8 wedge", "20 pyramid", "8 tet"}) CHECK_THAT(summary(mesh), Contains(part));
     CHECK(share_one_element_thick(mixed_box(order, {3, 3, 3}, {3, 3, 3})) == 0);
   }
@@ -116,7 +116,7 @@ TEST_CASE("a mixed mesh is imported with its groups, numbers and materials of ce
 
 TEST_CASE("an inverted cell of a mixed mesh is named by its number in the file") {
   Mesh mesh = mixed_box(1, {0.3, 0.2, 0.1}, {3, 2, 2});
-  int first = 1;  // the solid group stands first in the file
+  int first = 1;  // the group of solid cells is the first one in the file
   for (const CellBlock& block : mesh.blocks) {
     if (block.type == CellType::wedge6) break;
     first += static_cast<int>(block.nodes.cols());
@@ -145,18 +145,18 @@ TEST_CASE("a mixed mesh is cut into halves with their groups") {
   }
 }
 
-TEST_CASE("straightening mends the cells of order 2 of every type in a mixed mesh") {
+TEST_CASE("straightening repairs the cells of order 2 of every type in a mixed mesh") {
   Mesh mesh = mixed_box(2, {1, 1, 1}, {3, 1, 2});
   const Eigen::Matrix3Xd straight = mesh.points;
   for (const CellType type : {CellType::hex20, CellType::wedge15, CellType::pyramid13}) {
     const int node = mesh.block(type)->nodes(vertex_count(type), 0);
     mesh.points.col(node) += Eigen::Vector3d(0.02, 0.5, 0.6);
   }
-  CHECK(straighten_elements(mesh).nodes >= 2);  // edges may be common
+  CHECK(straighten_elements(mesh).nodes >= 2);  // cells may share edges
   CHECK((mesh.points - straight).cwiseAbs().maxCoeff() < 1e-14);
 }
 
-TEST_CASE("cells of order 1 and of order 2 do not fit together") {
+TEST_CASE("cells of order 1 and of order 2 in one mesh are refused") {
   const Mesh linear = cell_box(CellType::hex8, {1, 1, 1}, {1, 2, 2});
   CHECK_THAT(
       refusal(joined(linear, moved(cell_box(CellType::hex20, {1, 1, 1}, {1, 2, 2}), {1, 0, 0}))),

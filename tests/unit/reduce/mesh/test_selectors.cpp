@@ -1,4 +1,4 @@
-// Surfaces selected by shape, on geometries and on meshes that have no names.
+// Tests of the selection of surfaces by shape, on geometries and on meshes without names.
 #include <cmath>
 #include <numbers>
 
@@ -33,7 +33,8 @@ MeshRequest plate_request(const std::string& path, bool meshed) {
 
 }  // namespace
 
-TEST_CASE("cylinder, plane and box select the same surfaces of a geometry, of STEP without names and of a mesh") {
+TEST_CASE(
+    "cylinder, plane and box select the same surfaces of a geometry, of a STEP file without names and of a mesh") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("plate.geo", plate_geo);
   // gmsh writes numbers to STEP unchanged and declares them as mm.
@@ -45,18 +46,18 @@ TEST_CASE("cylinder, plane and box select the same surfaces of a geometry, of ST
   for (const std::string name : {"plate.geo", "plate.step", "plate.msh", "linear.msh"}) {
     CAPTURE(name);
     const Mesh mesh = import(plate_request(folder / name, name.ends_with(".msh")));
-    // Inscribed polygons: relative error (h/r)^2/24 of the circumference, 0.5 % at h = r/3.
+    // The circumference of an inscribed polygon has the relative error (h/r)^2/24, 0.5 % at h = r/3.
     CHECK_THAT(corner_area(mesh, "bore"), WithinRel(2 * std::numbers::pi * 0.03 * 0.02, 1e-2));
     CHECK_THAT(corner_area(mesh, "top"), WithinRel(0.02 - std::numbers::pi * (0.0009 + 0.0004), 1e-2));
     CHECK((area_vector(mesh, "end") - Eigen::Vector3d(0.002, 0, 0)).norm() < 1e-9);
-    CHECK(area_vector(mesh, "bore").norm() < 1e-9);  // a closed ring
+    CHECK(area_vector(mesh, "bore").norm() < 1e-9);  // the area vector of a closed ring is zero
     for (int node : mesh.groups.at("bore").nodes)
       CHECK(std::hypot(mesh.points(0, node) - 0.05, mesh.points(1, node) - 0.05) ==
             Approx(0.03).margin(name == "linear.msh" ? 1e-9 : 2e-4));
   }
 }
 
-TEST_CASE("one selection may unite several surfaces, and a physical one among them") {
+TEST_CASE("one selection may unite several surfaces, including a physical one") {
   const TemporaryFolder folder;
   const std::string path =
       folder.file("plate.geo", std::string(plate_geo) +
@@ -68,8 +69,8 @@ TEST_CASE("one selection may unite several surfaces, and a physical one among th
   CHECK_THAT(corner_area(mesh, "both"), WithinRel(2 * std::numbers::pi * 0.05 * 0.02, 1e-2));
 }
 
-TEST_CASE("shapes given together select where all of them hold") {
-  // A fork: two coaxial bores of one radius, in two cheeks whose outer faces lie in parallel planes.
+TEST_CASE("several shapes in one selector select their intersection") {
+  // The fork has two coaxial bores of one radius, in two cheeks whose outer faces are parallel planes.
   const TemporaryFolder folder;
   MeshRequest wish = request(folder.file("fork.geo",
                                          "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, .1,.04,.01}; Box(2) = "
@@ -91,14 +92,14 @@ TEST_CASE("shapes given together select where all of them hold") {
                                                 "a cylinder from (0.07, 0.01, 0) m to (0.09, 0.03, 0.01) m"));
 }
 
-TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
+TEST_CASE("the message about a selector that finds nothing names the nearest shapes") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("plate.geo", plate_geo);
   gmsh_convert(geo, folder / "plate.msh", 0.01, 2);
   for (const std::string name : {"plate.geo", "plate.msh"}) {
     CAPTURE(name);
     MeshRequest wish = plate_request(folder / name, name.ends_with(".msh"));
-    // On a geometry the search ends before there are solid cells, by which bores and pins are distinguished.
+    // On a geometry the selection is made before there are solid cells, which would distinguish bores and pins.
     const std::string bore = name.ends_with(".msh") ? " (a bore)" : "";
     wish.surfaces = {{"bore",
                       {ShapeSelector(CylinderSelector{{0.05, 0.05, 0}, {0, 0, 1}, 0.031})},
@@ -119,7 +120,7 @@ TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
   }
 }
 
-TEST_CASE("a body without cylinders says so") {
+TEST_CASE("the message says if a body has no cylinders") {
   const TemporaryFolder folder;
   MeshRequest wish = request(folder.file("box.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, 1,1,1};"));
   wish.size = 0.5;
@@ -127,8 +128,9 @@ TEST_CASE("a body without cylinders says so") {
   CHECK_THAT(import_message(wish), Contains("it has no cylinders"));
 }
 
-TEST_CASE("the end of a coarse shaft, whose nodes all lie on its rim, is not taken for the shaft") {
-  // An octagonal prism: eight corners on the circle, end faces triangulated without inner nodes.
+TEST_CASE("the end face of a coarse shaft, whose nodes all lie on the rim, does not belong to the cylinder") {
+  // The shaft is an octagonal prism with eight corners on the circle; its end faces are triangulated without inner
+  // nodes.
   Eigen::Matrix3Xd points(3, 16);
   for (int i = 0; i < 8; ++i)
     for (int k = 0; k < 2; ++k)
@@ -148,7 +150,7 @@ TEST_CASE("the end of a coarse shaft, whose nodes all lie on its rim, is not tak
   CHECK(selected.front() == 12);
 }
 
-TEST_CASE("on a mesh without geometry a box takes the triangles that lie in it, on a geometry whole surfaces") {
+TEST_CASE("a box selects the triangles in it on a mesh, and whole surfaces on a geometry") {
   Box box;
   box.bricks = {4, 1, 1};
   const Mesh mesh = box_mesh(box);
@@ -158,7 +160,8 @@ TEST_CASE("on a mesh without geometry a box takes the triangles that lie in it, 
     surface.sides.push_back({triangles.nodes(0, i), triangles.nodes(1, i), triangles.nodes(2, i)});
     surface.entities.push_back(1);
   }
-  const BoxSelector half{{-0.1, -0.1, 1}, {0.5, 1.1, 1}};  // half of the upper face: two bricks, four triangles
+  // The box contains half of the upper face, which has two bricks and four triangles.
+  const BoxSelector half{{-0.1, -0.1, 1}, {0.5, 1.1, 1}};
   CHECK(select_sides(half, mesh.points, surface).size() == 4);
   surface.geometry = true;
   CHECK_THROWS(select_sides(half, mesh.points, surface));

@@ -1,4 +1,4 @@
-// Recognition of elementary surfaces from points and normals.
+// Tests of the recognition of elementary surfaces from points and normals.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +18,7 @@ struct Samples {
   Eigen::Matrix3Xd x, n;
 };
 
-// A patch: position and normal as functions of two parameters, moved and turned somewhere in space.
+// A patch of a surface: position and normal as functions of two parameters, displaced and rotated in space.
 template <class Position, class Normal>
 Samples patch(const Position& position, const Normal& normal, double u0, double u1, double v0, double v1,
               const Eigen::Isometry3d& motion, double roughness) {
@@ -44,7 +44,7 @@ Eigen::Isometry3d somewhere() {
 TEST_CASE("patches of plane, cylinder, cone, sphere and torus are recognised with their dimensions") {
   const Eigen::Isometry3d motion = somewhere();
   const Vector3d axis = motion.linear().col(2);
-  // Exact normals as a geometry gives them; rough ones as triangles of a mesh give them.
+  // Normals are exact on a geometry, and approximate on triangles of a mesh.
   for (double roughness : {0.0, 0.1}) {
     CAPTURE(roughness);
     const auto along = [&](const Vector3d& a) { return std::abs(std::abs(a.dot(axis)) - 1); };
@@ -55,7 +55,7 @@ TEST_CASE("patches of plane, cylinder, cone, sphere and torus are recognised wit
     CHECK(along(plane.normal) < 1e-12);
     CHECK(std::abs(axis.dot(plane.point - motion.translation())) < 1e-12);
 
-    // A quarter and a whole cylinder.
+    // The patches are a quarter of a cylinder and a whole one.
     for (double turn : {std::numbers::pi / 2, 2 * std::numbers::pi}) {
       const Samples round = patch(
           [](double u, double v) { return Vector3d(0.02 * std::cos(u), 0.02 * std::sin(u), v); },
@@ -101,7 +101,7 @@ TEST_CASE("patches of plane, cylinder, cone, sphere and torus are recognised wit
   }
 }
 
-TEST_CASE("a saddle is none of the elementary surfaces, and few points are a plane or nothing") {
+TEST_CASE("a saddle is not an elementary surface, and few points are a plane or not recognised") {
   const Samples saddle = patch([](double u, double v) { return Vector3d(u, v, u * v); },
                                [](double u, double v) { return Vector3d(Vector3d(-v, -u, 1).normalized()); }, -1, 1, -1,
                                1, somewhere(), 0);

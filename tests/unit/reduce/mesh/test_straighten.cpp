@@ -1,4 +1,4 @@
-// Repair of curved elements that are inverted.
+// Tests of the repair of inverted curved elements.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 
@@ -24,7 +24,7 @@ double least_ratio(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("sound curved elements are left alone") {
+TEST_CASE("valid curved elements are not changed") {
   Mesh mesh = box_mesh({{1, 1, 1}, {3, 3, 3}, true}, [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x + Eigen::Vector3d(0.2 * x.y() * x.y(), 0, 0));
   });
@@ -35,7 +35,7 @@ TEST_CASE("sound curved elements are left alone") {
   CHECK(mesh.points == before);
 }
 
-TEST_CASE("a mid-side node that turns elements inside out goes to the middle of its edge, and only that one") {
+TEST_CASE("only the mid-side node that inverts elements is moved to the middle of its edge") {
   Mesh mesh = box_mesh({{1, 1, 1}, {2, 2, 2}, true});
   const Eigen::Matrix3Xd straight = mesh.points;
   const int node = mesh.blocks.front().nodes(4, 0);
@@ -52,12 +52,12 @@ TEST_CASE("a mid-side node that turns elements inside out goes to the middle of 
   CHECK((mesh.points - straight).cwiseAbs().maxCoeff() < 1e-14);
 }
 
-TEST_CASE("the coarse connecting rod has elements inside out at its fillets, and after the import none is left") {
+TEST_CASE("the mesh of the coarse connecting rod has inverted elements at fillets, which the import repairs") {
   MeshRequest wish = request(std::string(BIELLE_SOURCE_DIR) + "/meshes/conrod.geo");
   wish.length_unit = "mm";
   wish.size = 6e-3;
   CHECK(least_ratio(import(wish)) > 0);
-  // The unrepaired mesh of gmsh shows that the repair is needed.
+  // gmsh's mesh without the repair shows that the repair is needed.
   const std::string raw = std::string(BIELLE_BINARY_DIR) + "/conrod_raw.msh";
   gmsh_convert(wish.path, raw, 6, 2);
   MeshRequest again = request(raw);

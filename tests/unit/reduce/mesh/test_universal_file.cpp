@@ -1,5 +1,5 @@
-// Universal files: coordinate systems of nodes, and the unit of length. The body is a tetrahedron of volume a b c / 6
-// with its right angle at the origin.
+// Tests of universal files: coordinate systems of nodes, and the unit of length. The body is a tetrahedron of volume a
+// b c / 6 with its right angle at the origin.
 #include <array>
 #include <cmath>
 #include <string>
@@ -58,9 +58,9 @@ const std::array<Point, 4> spherical = {Point{0, 0, 0}, {a, 90, 0}, {b, 90, 90},
 
 }  // namespace
 
-TEST_CASE("nodes of universal files stand in systems of any kind") {
+TEST_CASE("nodes of universal files may be given in any kind of coordinate system") {
   const TemporaryFolder folder;
-  // x' along y, y' along z, z' along x, at (10, 0, 0).
+  // The system has x' along y, y' along z, z' along x, and its origin at (10, 0, 0).
   const std::array<Point, 4> turned = {Point{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {10, 0, 0}};
   struct Case {
     int kind;
@@ -77,7 +77,7 @@ TEST_CASE("nodes of universal files stand in systems of any kind") {
   }
 }
 
-TEST_CASE("the unit of a universal file counts unless the body file says another") {
+TEST_CASE("the unit of a universal file is used unless the body file states another one") {
   const TemporaryFolder folder;
   const std::string path = folder.file("body.unv", tetrahedron(units(1000), 0, own, cartesian));
   CHECK(universal_length_unit(path) == Approx(1e-3).epsilon(1e-15));
@@ -90,7 +90,7 @@ TEST_CASE("the unit of a universal file counts unless the body file says another
   CHECK(mesh_volume(import(request(none))) == Approx(a * b * c / 6).epsilon(1e-12));
 }
 
-TEST_CASE("damaged universal files are told with their lines") {
+TEST_CASE("messages about damaged universal files tell the line") {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& text) { return import_message(request(folder.file("bad.unv", text))); };
   CHECK_THAT(said(tetrahedron(units(0), 0, own, cartesian)),

@@ -6,15 +6,17 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
-TEST_CASE("A plate one element thick is so below most of its surface, one of two elements nowhere", "[mesh]") {
+TEST_CASE(
+    "Most of the surface of a plate with one element across its thickness is reported, but none of a plate with two",
+    "[mesh]") {
   const bool quadratic = GENERATE(true, false);
   CHECK(share_one_element_thick(test::box_mesh({{6, 6, 1}, {6, 6, 1}, quadratic})) > 0.5);
   CHECK(share_one_element_thick(test::box_mesh({{6, 6, 1}, {6, 6, 2}, quadratic})) < 0.02);
   CHECK(share_one_element_thick(test::box_mesh({{1, 1, 1}, {4, 4, 4}, quadratic})) == 0);
 }
 
-TEST_CASE("A single flat cell is one element thick everywhere, whatever the areas of its sides") {
-  // The three sides have unlike areas, and are inclined to the base by less than 30 degrees. The base is opposite to
+TEST_CASE("A single flat cell is one element thick everywhere, for any areas of its sides") {
+  // The three sides have different areas, and are inclined to the base by less than 30 degrees. The base is opposite to
   // each of them, and they are opposite to the base.
   Mesh mesh;
   mesh.points.resize(3, 4);

@@ -1,4 +1,4 @@
-// Bodies and requests that the tests of the reduction share.
+// Bodies and requests for the tests of the reduction.
 #pragma once
 
 #include "reduce/reduction/fixed_interface_body.hpp"
@@ -9,7 +9,7 @@ namespace bielle::test {
 
 inline reduce::Material steel() { return reduce::Material::isotropic(210e9, 0.3, 7800); }
 
-/// Returns a mesh all of steel.
+/// Returns the solid of a mesh of steel.
 inline reduce::Solid steel_solid(const reduce::Mesh& mesh) {
   return make_solid(mesh, {{"steel", steel()}}, {{"all", "steel"}});
 }
@@ -50,7 +50,7 @@ inline reduce::PointRequest point_at(const std::string& name, const Eigen::Vecto
   return request;
 }
 
-/// Returns a short twisted block: no symmetry hides an error, and the numbers are well conditioned.
+/// Returns a short twisted block. It has no symmetry that could hide an error, and is well conditioned.
 inline reduce::Mesh twisted_block() {
   return box_mesh({{0.4, 0.1, 0.15}, {5, 2, 2}}, [](const Eigen::Vector3d& x) {
     const double angle = 1.5 * x.x();

@@ -1,4 +1,4 @@
-// Rigid masses and coatings on a body.
+// Tests of rigid masses and coatings on a body.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -58,8 +58,8 @@ std::vector<double> axial_frequencies(const Superelement& body) {
   return found;
 }
 
-TEST_CASE("a rod with a mass at its end vibrates as the closed form says", "[reduction]") {
-  // beta tan beta = rod's mass over the mass at its end, f = beta c / (2 pi L), c = sqrt(E / rho)
+TEST_CASE("the frequencies of a rod with a mass at its end are the closed form", "[reduction]") {
+  // The roots of beta tan beta = mass of the rod / mass at its end give f = beta c / (2 pi L), c = sqrt(E / rho).
   const Mesh mesh = test::cell_box(CellType::hex20, {1, 0.1, 0.1}, {8, 1, 1});
   ReductionOptions options = rod(20);
   options.masses = {mass_on("x1", 2000 * 0.01 * 0.5)};
@@ -74,8 +74,8 @@ TEST_CASE("a rod with a mass at its end vibrates as the closed form says", "[red
   }
 }
 
-TEST_CASE("a rod with lumped masses vibrates as the closed form of the difference scheme says", "[reduction]") {
-  // f_k = c n / (pi L) sin((2 k - 1) pi / (4 n)) of n equal elements with half of their mass at each end.
+TEST_CASE("the frequencies of a rod with lumped masses are the closed form of the difference scheme", "[reduction]") {
+  // n equal elements with half of their mass at each end have f_k = c n / (pi L) sin((2 k - 1) pi / (4 n)).
   constexpr int n = 6;
   const Mesh mesh = test::cell_box(CellType::hex8, {1, 0.1, 0.1}, {n, 1, 1});
   ReductionOptions options = rod(30);
@@ -89,7 +89,7 @@ TEST_CASE("a rod with lumped masses vibrates as the closed form of the differenc
 }
 
 TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "[reduction]") {
-  // Without it the interface node would carry the body; both models have the same modes, since they hold the node.
+  // Both models have the same modes, since the interface node is held.
   const Mesh mesh = test::twisted_block();
   ReductionOptions bare = test::steel_body(Tie::rigid, Tie::average, 5), loaded = bare;
   const Vector3d position(0.7, 0.1, -0.2);
@@ -106,13 +106,13 @@ TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "
   rigid << 30 * Matrix3d::Identity(), -30 * arm, 30 * arm, skew_inertia - 30 * arm * arm;
   Eigen::MatrixXd expected = a.mass;
   expected.block<6, 6>(6, 6) += rigid;
-  // Signs of modes may differ: boundary coordinates, then the modes alone.
+  // The signs of modes may differ, so that boundary coordinates and modes are compared separately.
   const double scale = expected.cwiseAbs().maxCoeff();
   CHECK((b.mass.topLeftCorner<12, 12>() - expected.topLeftCorner<12, 12>()).norm() < 1e-10 * scale);
   CHECK((b.mass.topRightCorner(12, 5).cwiseAbs() - expected.topRightCorner(12, 5).cwiseAbs()).norm() < 1e-7 * scale);
   CHECK((b.stiffness - a.stiffness).norm() < 1e-9 * a.stiffness.norm());
 
-  // S_kl of the element dm at xi: its displacement is W_x + theta x xi.
+  // S_kl is an integral over elements dm at xi, whose displacement is W_x + theta x xi.
   const Matrix3d second = skew_inertia.trace() / 2 * Matrix3d::Identity() - skew_inertia;
   for (int k = 0; k < 3; ++k) {
     Eigen::Matrix<double, 3, 6> along = Eigen::Matrix<double, 3, 6>::Zero();  // rows: displacement per xi
@@ -128,12 +128,13 @@ TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "
 }
 
 TEST_CASE("a spinning body with a point mass stiffens as under the load of its centrifugal force", "[reduction]") {
-  // The mass at the node of an interface: K_sigma of the loaded body is that of the bare one plus that of the force.
+  // The mass is at the node of an interface. K_sigma of the body with the mass is that of the body alone plus that of
+  // the force.
   const Mesh mesh = test::box_mesh({{0.6, 0.1, 0.1}, {6, 1, 1}});
   ReductionOptions bare = test::steel_body(Tie::rigid, Tie::average, 0), loaded = bare;
   loaded.masses = {mass_on("x1", 20)};
   const Superelement a = test::reduced(mesh, bare), b = test::reduced(mesh, loaded);
-  // Fields of Om_2^2 and Om_3^2 push the mass along x, as the unit load of coordinate 6 does.
+  // The fields of Om_2^2 and Om_3^2 load the mass along x, as the unit load on coordinate 6 does.
   const double force = 20 * (0.6 - b.centre.x());
   for (const std::size_t spin : {1, 2}) {
     const Eigen::MatrixXd change = b.spin_stiffness[spin] - a.spin_stiffness[spin];
@@ -144,7 +145,7 @@ TEST_CASE("a spinning body with a point mass stiffens as under the load of its c
   }
 }
 
-TEST_CASE("bodies with masses and coatings pass all checks of a reduction, whatever their ties", "[reduction]") {
+TEST_CASE("bodies with masses and coatings pass all checks of a reduction, with any ties", "[reduction]") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 6);
   switch (GENERATE(0, 1, 2, 3)) {
     case 0:
@@ -181,7 +182,7 @@ TEST_CASE("bodies with masses and coatings pass all checks of a reduction, whate
         1e-12 * body.mass.norm());
 }
 
-TEST_CASE("a mass at a place follows rigid motions exactly, and at a node the node", "[reduction]") {
+TEST_CASE("a mass at a place follows rigid motions exactly, and one at a node follows the node", "[reduction]") {
   const Mesh mesh = test::twisted_block();
   const Solid solid = test::steel_solid(mesh);
   const int node = 40;
@@ -194,7 +195,7 @@ TEST_CASE("a mass at a place follows rigid motions exactly, and at a node the no
   CHECK(std::abs(mass.motion(alone)(1, 0) - 1) < 1e-4);
 }
 
-TEST_CASE("pieces have the masses that lie in them", "[reduction]") {
+TEST_CASE("each piece has the masses that lie in it", "[reduction]") {
   const Mesh mesh = test::box_mesh({{0.8, 0.1, 0.1}, {8, 1, 1}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
   options.masses = {mass_at({0.7, 0.05, 0.1}, 4)};
@@ -213,7 +214,7 @@ TEST_CASE("pieces have the masses that lie in them", "[reduction]") {
                     Contains("a mass belongs to one; move the cut, or divide the mass"));
 }
 
-TEST_CASE("masses on no surface, far away or outside the body are refused", "[reduction]") {
+TEST_CASE("masses on unknown surfaces, far away or outside of the body are refused", "[reduction]") {
   const Mesh mesh = test::twisted_block();
   const auto refusal = [&](const MassRequest& request) {
     ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
@@ -235,7 +236,7 @@ TEST_CASE("masses on no surface, far away or outside the body are refused", "[re
              Contains("masses.paint: the mesh has no surface group 'zz'"));
 }
 
-TEST_CASE("masses compared with which the body is lost in rounding are refused", "[reduction]") {
+TEST_CASE("masses so large that the body is lost in rounding are refused", "[reduction]") {
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {8, 1, 1}});
   const double own = 7800 * 0.01;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
@@ -252,10 +253,10 @@ TEST_CASE("masses compared with which the body is lost in rounding are refused",
   CHECK_THAT(refusal(), Contains("masses.paint: its mass of 1e+299 kg") && Contains("`per_area` is in kg/m^2"));
   options.coatings[0].mass_per_area = 0.5e6 * own / 0.1;
   options.masses = {mass_at({0.5, 0, 0}, 0.5e6 * own)};
-  CHECK(refusal() == "(nothing thrown)");  // the checks of the superelement pass below the limits
+  CHECK(refusal() == "(nothing thrown)");  // below the limits, the checks of the superelement pass
 }
 
-TEST_CASE("a place outside of the mesh by more than half a cell is told", "[reduction]") {
+TEST_CASE("a place outside of the mesh by more than half a cell gives a warning", "[reduction]") {
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {8, 1, 1}});  // cells 125 mm long
   const Solid solid = test::steel_solid(mesh);
   const auto told = [&](double z) {

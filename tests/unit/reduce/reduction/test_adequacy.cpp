@@ -16,16 +16,17 @@ Adequacy judged(const Mesh& mesh, const ReductionOptions& options) {
   return *body.adequacy;
 }
 
-/// Returns the relative excess of the first of `found` over the first of `truth`, and so on.
+/// Returns the relative excess of each number of `found` over that of `truth`.
 Eigen::VectorXd excess(const Eigen::VectorXd& found, const Eigen::VectorXd& truth) {
   return (found.head(truth.size()).cwiseQuotient(truth).array() - 1).matrix();
 }
 
 }  // namespace
 
-TEST_CASE("What modes left out do to free frequencies is found, however few are kept") {
+TEST_CASE("The effect of omitted modes on free frequencies is estimated, however few modes are kept") {
   const Mesh mesh = test::twisted_block();
-  const Eigen::VectorXd full = test::SolidModel(mesh, test::steel()).frequencies(4);  // ties that hold nothing free
+  const Eigen::VectorXd full =
+      test::SolidModel(mesh, test::steel()).frequencies(4);  // average ties do not stiffen a free body
   const int modes = GENERATE(0, 2, 4, 10);
   const Adequacy found = judged(mesh, test::steel_body(Tie::average, Tie::average, modes));
   const Eigen::VectorXd truth =
@@ -37,7 +38,7 @@ TEST_CASE("What modes left out do to free frequencies is found, however few are 
   }
 }
 
-TEST_CASE("The first mode left out is that of a reduction with one more") {
+TEST_CASE("The first omitted mode is the last one of a reduction with one more mode") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 12);
   const Eigen::VectorXd twelve = test::reduced(mesh, options).frequencies;
@@ -55,7 +56,7 @@ TEST_CASE("The first mode left out is that of a reduction with one more") {
   CHECK(judged(mesh, options).wanted == 0);
 }
 
-TEST_CASE("Rigid ties stiffen at least by what is said, and not much more") {
+TEST_CASE("Rigid ties stiffen the body by the reported bound, and not much more") {
   const Mesh mesh = test::twisted_block();
   const Eigen::VectorXd average = test::SolidModel(mesh, test::steel()).frequencies(4);
   const Adequacy found = judged(mesh, test::steel_body(Tie::rigid, Tie::rigid, 40));
@@ -70,9 +71,8 @@ TEST_CASE("Rigid ties stiffen at least by what is said, and not much more") {
   CHECK(judged(mesh, test::steel_body(Tie::average, Tie::free, 4)).tie_error.size() == 0);
 }
 
-TEST_CASE("The mesh's error of frequencies is that of a finer mesh, within a factor of 2, of 2.5 in torsion") {
-  // In a bar two elements wide the smoothed stress represents the warping of the sections no better than the elements
-  // do.
+TEST_CASE("The estimated mesh error of frequencies is within a factor of 2 of the true one, 2.5 in torsion") {
+  // In a bar two elements wide, the smoothed stress represents the warping of the sections no better than the elements.
   const bool quadratic = GENERATE(true, false);
   const Eigen::Vector3d size(1, 0.2, 0.3);
   const int n = quadratic ? 2 : 4;
@@ -88,7 +88,7 @@ TEST_CASE("The mesh's error of frequencies is that of a finer mesh, within a fac
   }
 }
 
-TEST_CASE("All modes together have the whole answer to accelerations, a few have less") {
+TEST_CASE("All modes together have the complete response to accelerations; a few modes have less") {
   const Mesh mesh = test::box_mesh({{0.2, 0.1, 0.1}, {2, 1, 1}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 108);  // 36 points inside
   options.interfaces.pop_back();
@@ -100,7 +100,7 @@ TEST_CASE("All modes together have the whole answer to accelerations, a few have
   CHECK(few.y() < 1);
 }
 
-TEST_CASE("A reduction that is not to be judged is not") {
+TEST_CASE("The judgement of a reduction can be switched off") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 2);
   options.judged = false;
   CHECK_FALSE(test::reduced(test::twisted_block(), options).adequacy);

@@ -29,12 +29,12 @@ struct Model {
 
 }  // namespace
 
-TEST_CASE("The held body is in equilibrium under any load, with its conditions met") {
+TEST_CASE("The held body is in equilibrium under any load, and satisfies its conditions") {
   const int variant = GENERATE(0, 1, 2, 3);
   std::vector<InterfaceRequest> requests;
   int supports = 0;
   switch (variant) {
-    case 0:  // held by freedoms alone
+    case 0:  // held by fixed degrees of freedom alone
       requests = {test::interface("a", "x0", Tie::rigid), test::interface("b", "x1", Tie::rigid)};
       requests[1].kept = {true, true, true, false, true, false};
       break;
@@ -48,7 +48,7 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
       requests[0].kept = {true, true, true, false, false, false};
       supports = 3;
       break;
-    default:  // a rigid and an average
+    default:  // a rigid tie and an average
       requests = {test::interface("a", "x0", Tie::rigid), test::interface("b", "x1", Tie::average)};
   }
   const Model model(test::twisted_block(), requests);
@@ -57,14 +57,14 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
 
   const auto averages = static_cast<Eigen::Index>(model.ties.averages.size());
   const Eigen::MatrixXd f = Eigen::MatrixXd::Random(held.size(), 3);
-  // Displacements of the size that such loads cause: compliance of some 1e-10 m/N.
+  // The displacements have the size that such loads cause, with a compliance of about 1e-10 m/N.
   const Eigen::MatrixXd q = 1e-9 * Eigen::MatrixXd::Random(averages, 3);
   const Eigen::MatrixXd z = held.solve(f, q);
   const RowMatrix u = held.expand(z);
   if (averages > 0) {
     CHECK((model.ties.spread.transpose() * u - q).norm() < 1e-10 * u.norm());
   }
-  // The force that is missing from equilibrium inside must be C^T lambda.
+  // The unbalanced force at inner nodes must be C^T lambda.
   const Eigen::MatrixXd residual = f - held.restrict(model.stiffness.multiply(u));
   if (averages == 0) {
     CHECK(residual.norm() < 1e-9 * f.norm());
@@ -78,21 +78,21 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
   CHECK((g.transpose() * held.solve(f) - held.solve(g).transpose() * f).norm() < 1e-9 * forth);
 }
 
-TEST_CASE("A held average gets the force that its surface passes on, and works by it") {
+TEST_CASE("The force on a held average is that on its surface, and so is its work") {
   const Model model(test::twisted_block(),
                     {test::interface("a", "x0", Tie::average), test::interface("b", "x1", Tie::average)});
   const FixedInterfaceBody held = model.held();
   const Eigen::MatrixXd spread = held.restrict(RowMatrix(model.ties.spread));
   const Eigen::MatrixXd z = held.solve(Eigen::MatrixXd::Zero(held.size(), 12), Eigen::MatrixXd::Identity(12, 12));
   const Eigen::MatrixXd forces = held.restrict(model.stiffness.multiply(held.expand(z)));
-  // Loads act on the two surfaces alone, spread as unit loads are: forces = C^T lambda, and lambda = z^T K z.
+  // Loads act on the two surfaces alone and are distributed like unit loads: forces = C^T lambda, and lambda = z^T K z.
   const Eigen::MatrixXd lambda = spread.colPivHouseholderQr().solve(forces);
   CHECK((spread * lambda - forces).norm() < 1e-8 * forces.norm());
   const Eigen::MatrixXd work = z.transpose() * forces;
   CHECK((work - lambda).norm() < 1e-8 * work.norm());
 }
 
-TEST_CASE("Forces on points and displacements of points are transposed maps") {
+TEST_CASE("The maps of forces on points and of displacements of points are transposes") {
   std::vector<InterfaceRequest> requests{test::interface("a", "x0", Tie::rigid)};
   requests[0].kept[5] = false;
   requests.push_back(test::interface("b", "x1", Tie::rigid));
@@ -103,7 +103,7 @@ TEST_CASE("Forces on points and displacements of points are transposed maps") {
   CHECK((z.transpose() * held.restrict(f) - Eigen::MatrixXd(held.expand(z).transpose() * f)).norm() < 1e-12 * f.norm());
 }
 
-TEST_CASE("A body that its interfaces do not hold is refused with the motion that is left") {
+TEST_CASE("A body that its interfaces do not hold is refused with the motion that remains free") {
   const auto message = [](const std::vector<InterfaceRequest>& requests) {
     const Model model(test::box_mesh({{0.4, 0.1, 0.2}, {4, 2, 2}}), requests);
     try {
@@ -124,7 +124,7 @@ TEST_CASE("A body that its interfaces do not hold is refused with the motion tha
   CHECK_THAT(message({a}), Contains("can still move along ("));
   a.tie = Tie::rigid;
   CHECK_THAT(message({a}), Contains("can still move along ("));
-  // Two ball joints leave the rotation about the line between them.
+  // Two ball joints leave the rotation about the line between them free.
   auto b = test::interface("b", "x1", Tie::rigid);
   a.kept = b.kept = {true, true, true, false, false, false};
   CHECK_THAT(message({a, b}), Contains("can still turn about the axis (") && Contains("1, 0, 0)"));
@@ -132,8 +132,8 @@ TEST_CASE("A body that its interfaces do not hold is refused with the motion tha
   CHECK(message({a, b}) == "accepted");
 }
 
-TEST_CASE("Parts that hang on by an edge are found where they do") {
-  // Two boxes that share one edge: the second turns about it.
+TEST_CASE("Parts that are connected by an edge are found, with its place") {
+  // Two boxes share one edge, about which the second one can rotate.
   Mesh mesh = test::box_mesh({{2, 2, 1}, {2, 2, 1}});
   Eigen::MatrixXi kept(10, 0);
   for (const auto& cell : mesh.blocks[0].nodes.colwise()) {

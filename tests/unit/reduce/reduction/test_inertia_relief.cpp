@@ -1,4 +1,4 @@
-// Residual vectors for the body's own inertia, and the share of its answer that a reduction reports.
+// Tests of residual vectors for the body's own inertia, and of the share of the response that a reduction reports.
 #include <cmath>
 
 #include <Eigen/LU>
@@ -48,15 +48,15 @@ Superelement bar(bool relieved, int modes = 16) {
   return test::reduced(test::box_mesh({{1, 0.04, 0.04}, {24, 1, 1}}), options);
 }
 
-/// Largest stress along the bar that spins by w about z through its centre, and the largest relative deviation from its
-/// closed form rho w^2 (L^2 - x^2)/2, x from the centre, L half the length.
+/// Largest stress along the bar, which spins at the rate w about z through its centre, and the largest relative
+/// deviation from the closed form rho w^2 (L^2 - x^2)/2, with x from the centre and half of the length L.
 struct SpinningStress {
-  double largest = 0, difference = 0;  ///< over the largest of the closed form
+  double largest = 0, difference = 0;  ///< relative to the largest value of the closed form
 };
 
 SpinningStress spinning_stress(const Superelement& body) {
   const double w = 300, half = 0.5, largest = density * w * w * half * half / 2;
-  // The generalised forces of a(x) = w x (w x r) by its inertia components: f = - sum over k, l, m eps_klm w_l S_km U
+  // The inertia components give the generalised forces of a(x) = w x (w x r): f = - sum over k, l, m eps_klm w_l S_km U
   // w.
   Eigen::MatrixXd turning = Eigen::MatrixXd::Zero(body.size(), 1);
   turning.topRows(body.interface_directions()) =
@@ -66,14 +66,14 @@ SpinningStress spinning_stress(const Superelement& body) {
     const Eigen::MatrixXd& matrix = body.inertia_components[static_cast<std::size_t>(place[k][l])];
     return k <= l ? matrix : Eigen::MatrixXd(matrix.transpose());
   };
-  // w along z: (w x v)_x = -w v_y, (w x v)_y = w v_x.
+  // With w along z, (w x v)_x = -w v_y and (w x v)_y = w v_x.
   const Eigen::VectorXd force = w * (S(0, 1) * turning - S(1, 0) * turning);
-  // The bar is held at one end, which the centrifugal forces, in equilibrium, do not load.
+  // The bar is held at one end. The centrifugal forces are in equilibrium and do not load it.
   const Eigen::VectorXd stress = body.stress_recovery * answer(body, force, 6);
   SpinningStress result;
   for (std::size_t k = 0; k < body.stress_nodes.size(); ++k) {
     const double x = body.mesh.points(0, body.stress_nodes[k]) - half;
-    if (std::abs(x) > 0.4) continue;  // rigid ends hold the contraction
+    if (std::abs(x) > 0.4) continue;  // rigid ends prevent the contraction
     const double found = stress(6 * static_cast<Eigen::Index>(k)), exact = density * w * w * (half * half - x * x) / 2;
     result.largest = std::max(result.largest, found / largest);
     result.difference = std::max(result.difference, std::abs(found - exact) / largest);
@@ -83,7 +83,7 @@ SpinningStress spinning_stress(const Superelement& body) {
 
 }  // namespace
 
-TEST_CASE("With inertia relief the static answer to any acceleration that is linear in space is that of the mesh") {
+TEST_CASE("With inertia relief the static response to any acceleration that is linear in space is that of the mesh") {
   const Tie tie = GENERATE(Tie::rigid, Tie::average, Tie::free);
   const int modes = GENERATE(0, 6);
   const Mesh mesh = test::twisted_block();
@@ -108,7 +108,7 @@ TEST_CASE("With inertia relief the static answer to any acceleration that is lin
   CHECK(worst > 0.01);
 }
 
-TEST_CASE("The energies of the answer to accelerations say what is missing") {
+TEST_CASE("The energies of the response to accelerations tell the missing part") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 6);
   const InertiaAnswer without = test::reduced(mesh, options).inertia_answer;
@@ -117,7 +117,7 @@ TEST_CASE("The energies of the answer to accelerations say what is missing") {
   CHECK(relative(with.whole, without.whole) < 1e-10);
   CHECK(with.missing.norm() < 1e-9 * with.whole.norm());
   CHECK(without.missing.norm() > 0.01 * without.whole.norm());
-  // The energies of the mesh, held at its interfaces.
+  // These are the energies of the mesh, held at its interfaces.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const FixedInterfaceBody held = test::held_body(solid, make_ties(solid, options.interfaces));
   const RowMatrix loads = inertia_loads(solid);
@@ -125,9 +125,9 @@ TEST_CASE("The energies of the answer to accelerations say what is missing") {
   CHECK(relative(with.whole, loads.transpose() * exact) < 1e-9);
 }
 
-TEST_CASE("A bar that spins about its middle shows two thirds of its largest stress, with inertia relief all of it") {
-  // Between its ends, which are not held, 16 modes (bending, torsion, the first along the bar) leave the mean stress,
-  // rho w^2 L^2/3.
+TEST_CASE("A bar that spins about its middle has two thirds of its largest stress, and all of it with inertia relief") {
+  // Its ends are not held; 16 modes (bending, torsion, the first along the bar) give only the mean stress, rho w^2
+  // L^2/3.
   CHECK(spinning_stress(bar(false)).largest == Approx(2.0 / 3).epsilon(0.02));
   const SpinningStress relieved = spinning_stress(bar(true));
   CHECK(relieved.largest == Approx(1).epsilon(0.01));
@@ -135,20 +135,21 @@ TEST_CASE("A bar that spins about its middle shows two thirds of its largest str
   CHECK(spinning_stress(bar(true, 0)).difference < 0.01);
 }
 
-TEST_CASE("The energies of a bar's answer to accelerations along it are those of a rod with held ends") {
+TEST_CASE("The energies of the response of a bar to accelerations along it are those of a rod with held ends") {
   const Superelement body = bar(false);
   const double A = 0.04 * 0.04, half = 0.5;
-  // Under a: stress rho a x. Under c x: stress rho c (L^2 - 3 x^2)/6. Twice the energies, ends held:
+  // An acceleration a causes the stress rho a x, and c x causes rho c (L^2 - 3 x^2)/6. With the ends held, twice the
+  // energies are:
   const double constant = A * density * density / young * 2 * std::pow(half, 3) / 3;
   const double linear = A * density * density / (36 * young) * 8 * std::pow(half, 5) / 5;
   CHECK(body.inertia_answer.whole(0, 0) == Approx(constant).epsilon(0.02));
-  CHECK(body.inertia_answer.whole(1, 1) == Approx(linear).epsilon(0.1));  // ends hold the contraction
-  // The first mode along the bar is kept: cos(pi x/2L) has 96/pi^4 of the first; the second is not.
+  CHECK(body.inertia_answer.whole(1, 1) == Approx(linear).epsilon(0.1));  // the ends prevent the contraction
+  // The first mode along the bar is kept: cos(pi x/2L) has 96/pi^4 of the first energy. The second mode is not kept.
   CHECK(body.inertia_answer.missing(0, 0) / constant == Approx(1 - 96 / std::pow(M_PI, 4)).epsilon(0.1));
   CHECK(body.inertia_answer.missing(1, 1) / body.inertia_answer.whole(1, 1) > 0.999);
 }
 
-TEST_CASE("Inertia relief stands next to other residual vectors, and where modes have all, none are made") {
+TEST_CASE("Inertia relief adds to other residual vectors, and adds none if the modes are complete") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 4);
   options.inertia_relief = true;
   options.points = {test::point_on("pad", "y1")};
@@ -165,7 +166,7 @@ TEST_CASE("Inertia relief stands next to other residual vectors, and where modes
   CHECK(whole.inertia_answer.missing.norm() < 1e-8 * whole.inertia_answer.whole.norm());
 }
 
-TEST_CASE("Each piece of a body gets its own inertia relief") {
+TEST_CASE("Each piece of a body has its own inertia relief") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 3);
   options.inertia_relief = true;
   Progress quiet(true);

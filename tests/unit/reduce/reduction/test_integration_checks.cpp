@@ -1,4 +1,5 @@
-// Requests for plain and reduced integration, and the mode whose strain energy reduced integration lowers most.
+// Tests of requests for plain and reduced integration, and of the mode whose strain energy reduced integration lowers
+// most.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
@@ -23,7 +24,7 @@ RowMatrix field(const Mesh& mesh, const std::function<Eigen::Vector3d(const Eige
 
 }  // namespace
 
-TEST_CASE("plain and reduced integration are accepted for meshes with cells that they concern") {
+TEST_CASE("plain and reduced integration are accepted for meshes with cells to which they apply") {
   const auto refused = [](CellType type, Integration integration) {
     const Mesh mesh = test::cell_box(type, {1, 1, 1}, {1, 1, 1});
     try {
@@ -41,10 +42,11 @@ TEST_CASE("plain and reduced integration are accepted for meshes with cells that
   }
 }
 
-TEST_CASE("an hourglass mode is found by its strain energy with full integration; residual vectors are no modes") {
-  // The mesh is a cube of one cell from 0 to 2. The linear field has the same strain everywhere. With x, y, z from the
-  // centre, the hourglass field has the strains y^2 - z^2, z^2 - x^2, x^2 - y^2 and no shear: all are zero at the
-  // 2 x 2 x 2 points.
+TEST_CASE(
+    "an hourglass mode is found by its strain energy with full integration; residual vectors do not count as modes") {
+  // The mesh is a cube of one cell from 0 to 2. The linear field has constant strain. With x, y, z from the centre, the
+  // hourglass field has the strains y^2 - z^2, z^2 - x^2, x^2 - y^2 and no shear, which are all zero at the 2 x 2 x 2
+  // points.
   const Mesh mesh = test::cell_box(CellType::hex20, {2, 2, 2}, {1, 1, 1});
   Solid solid = make_solid(mesh, {{"m", material}}, {{"all", "m"}}, Integration::reduced);
   const auto energy = [&](const RowMatrix& u, Integration integration) {

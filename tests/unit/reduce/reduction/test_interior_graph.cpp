@@ -45,7 +45,7 @@ TEST_CASE("The graph of points is that of the stiffness", "[reduction]") {
   CHECK(from_mesh.rows == from_matrix.rows);
 }
 
-TEST_CASE("The graph of the interior, from the mesh alone, holds every number that is factorised", "[reduction]") {
+TEST_CASE("The graph of the interior, from the mesh alone, contains every entry that is factorised", "[reduction]") {
   const int variant = GENERATE(0, 1, 2, 3);
   const Held model(variant);
   const NodeGraph nodes = node_graph(model.solid.mesh);
@@ -69,8 +69,7 @@ TEST_CASE("The graph of the interior, from the mesh alone, holds every number th
   }
 }
 
-TEST_CASE("A structure that was prepared while matrices were assembled gives the factor that one found later gives",
-          "[reduction]") {
+TEST_CASE("A structure prepared during the assembly gives the same factor as one found afterwards", "[reduction]") {
   const int variant = GENERATE(0, 1, 2, 3);
   const Held model(variant);
   for (const int threads : {1, 2, 3}) {
@@ -91,7 +90,7 @@ TEST_CASE("A structure that was prepared while matrices were assembled gives the
   }
 }
 
-TEST_CASE("A cell that is inside out is told, whichever thread meets it", "[reduction]") {
+TEST_CASE("An inverted cell is reported from every thread", "[reduction]") {
   Held model(1);
   Eigen::MatrixXi& nodes = model.mesh.blocks.front().nodes;
   std::swap(nodes(0, 3), nodes(1, 3));

@@ -32,7 +32,7 @@ struct HeldModel {
   HeldModel(const HeldModel&) = delete;
 
   std::optional<ModeCount> count() const { return count_modes(*matrices, held, basis); }
-  /// Removes mode k, as if the search had not found it.
+  /// Removes mode k, as if the eigensolver had not found it.
   void forget(Index k) {
     std::vector<double> left(basis.eigenvalues.begin(), basis.eigenvalues.end());
     left.erase(left.begin() + k);
@@ -47,10 +47,10 @@ std::vector<InterfaceRequest> both_ends(Tie a, Tie b) {
 
 }  // namespace
 
-TEST_CASE("missed modes: the pivots count the modes below any frequency, however the body is held", "[reduction]") {
+TEST_CASE("missed modes: the pivots count the modes below any frequency, for any ties", "[reduction]") {
   std::vector<InterfaceRequest> requests;
   switch (GENERATE(0, 1, 2, 3)) {
-    case 0:  // held by freedoms alone, two of its rotations released
+    case 0:  // held by fixed degrees of freedom alone, with two rotations released
       requests = both_ends(Tie::rigid, Tie::rigid);
       requests[1].kept = {true, true, true, false, true, false};
       break;
@@ -92,8 +92,8 @@ TEST_CASE("missed modes: the pivots count the modes below any frequency, however
   CHECK(std::pow(2 * M_PI * above->below, 2) < 1.01 * values(11));
 }
 
-TEST_CASE("missed modes: one of a pair that was missed is found out", "[reduction]") {
-  // A square bar bends at pairs of frequencies, which differ by rounding and by the mesh alone.
+TEST_CASE("missed modes: a missing mode of a pair is noticed", "[reduction]") {
+  // A square bar has pairs of bending frequencies, which differ only by rounding and by the mesh.
   HeldModel bar(test::box_mesh({{4, 0.2, 0.2}, {12, 2, 2}}), both_ends(Tie::rigid, Tie::rigid), 10);
   REQUIRE(bar.count());
   CHECK(bar.count()->counted == bar.count()->found);
@@ -105,7 +105,7 @@ TEST_CASE("missed modes: one of a pair that was missed is found out", "[reductio
   CHECK(count->counted == count->found + 1);
 }
 
-TEST_CASE("missed modes: a reduction that is asked for a proof stores its result", "[reduction]") {
+TEST_CASE("missed modes: a reduction stores the result of a requested count", "[reduction]") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 8);
   ReductionReport report;
   CHECK_FALSE(test::reduced(test::twisted_block(), options).checks.contains("missed_modes"));

@@ -11,7 +11,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
-TEST_CASE("Turns of modes are those of the displacement field at places from end to end") {
+TEST_CASE("The rotations of modes are those of the displacement field, at places from end to end") {
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {20, 2, 2}});
   const ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 0);
   const Solid solid = make_solid(mesh, options.materials, options.regions);
@@ -20,7 +20,8 @@ TEST_CASE("Turns of modes are those of the displacement field at places from end
   for (Eigen::Index a = 0; a < solid.points(); ++a) {
     const Eigen::Vector3d X = mesh.points.col(a);
     fields.block<3, 1>(3 * a, 0) = turn.cross(X);
-    fields.block<3, 1>(3 * a, 1) = Eigen::Vector3d(-X.x() * X.z(), 0, X.x() * X.x() / 2);  // bent: turned by -x about y
+    // The second field is bending with the rotation -x about y.
+    fields.block<3, 1>(3 * a, 1) = Eigen::Vector3d(-X.x() * X.z(), 0, X.x() * X.x() / 2);
   }
   const Eigen::MatrixXd turns = mode_turns(solid, fields, 0, "bar");
   REQUIRE(turns.rows() % 3 == 0);
@@ -33,9 +34,9 @@ TEST_CASE("Turns of modes are those of the displacement field at places from end
     least = std::min(least, turns(k + 1, 1));
     most = std::max(most, turns(k + 1, 1));
   }
-  CHECK(most - least == Approx(1).epsilon(0.1));  // elements of 0.05 m
-  // Each place is as far as possible from those before it, which is within twice the best radius of coverage (T. F.
-  // Gonzalez, Theor. Comput. Sci. 38 (1985) 293). 24 places along the axis cover the bar within 0.074 m.
+  CHECK(most - least == Approx(1).epsilon(0.1));  // the elements are 0.05 m long
+  // Each place is as far as possible from the previous ones; the radius of coverage is at most twice the best one (T.
+  // F. Gonzalez, Theor. Comput. Sci. 38 (1985) 293). 24 places along the axis cover the bar with a radius of 0.074 m.
   std::vector<double> along;
   for (Eigen::Index k = 0; k < turns.rows(); k += 3) along.push_back(-turns(k + 1, 1));
   std::sort(along.begin(), along.end());
@@ -44,7 +45,7 @@ TEST_CASE("Turns of modes are those of the displacement field at places from end
   CHECK(gap < 4 * 0.074 + 0.05);
 }
 
-TEST_CASE("Strains at places are those of the displacement field, and the last is the mean over the body") {
+TEST_CASE("Strains at places are those of the displacement field, and the last one is the mean over the body") {
   for (const bool quadratic : {true, false}) {
     const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {20, 2, 2}, quadratic});
     const ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 0);
@@ -58,7 +59,7 @@ TEST_CASE("Strains at places are those of the displacement field, and the last i
       const Eigen::Vector3d X = mesh.points.col(a);
       fields.block<3, 1>(3 * a, 0) = gradient * X;
       fields.block<3, 1>(3 * a, 1) = Eigen::Vector3d(0.3, -0.5, 0.2).cross(X);
-      const double z = X.z() - 0.05;  // from the axis
+      const double z = X.z() - 0.05;  // distance from the axis
       fields.block<3, 1>(3 * a, 2) = Eigen::Vector3d(-X.x() * z, 0, X.x() * X.x() / 2);
     }
     const Eigen::MatrixXd strains = place_strains(solid, fields, "bar");
@@ -69,9 +70,9 @@ TEST_CASE("Strains at places are those of the displacement field, and the last i
       CHECK(strains.block<6, 1>(k, 1).norm() < 1e-10);
       largest = std::max(largest, std::abs(strains(k, 2)));
     }
-    CHECK(largest > (quadratic ? 0.035 : 0.02));  // at the outermost fibres, less half an element or so
+    CHECK(largest > (quadratic ? 0.035 : 0.02));  // strain of the outermost fibres, reduced by about half an element
     CHECK(largest < 0.05 * (1 + 1e-9));
-    if (quadratic) CHECK(std::abs(strains(strains.rows() - 6, 2)) < 1e-12);  // bending cancels
+    if (quadratic) CHECK(std::abs(strains(strains.rows() - 6, 2)) < 1e-12);  // the mean strain of bending is zero
   }
 }
 

@@ -1,4 +1,4 @@
-// The block method against ARPACK on solids with repeated frequencies, held and free.
+// Compares the block method with ARPACK on solids with multiple frequencies, held and free.
 #include <catch2/catch.hpp>
 
 #include "tests/support/box_mesh.hpp"
@@ -21,14 +21,14 @@ void compare(const test::SolidModel& model, int count) {
     options.block = block;
     const Eigen::VectorXd found = model.frequencies(count, options);
     REQUIRE(found.size() == count);
-    // Eigenvalues are off by the squares of residuals, and by eps |K| / lambda, which is 1e-11 here.
+    // Eigenvalues have errors of the squares of residuals, and of eps |K| / lambda, which is 1e-11 here.
     CHECK((found.array() / expected.array() - 1).abs().maxCoeff() < 1e-10);
   }
 }
 
 }  // namespace
 
-TEST_CASE("block Lanczos: a free cube has the frequencies that ARPACK finds, pairs included", "[reduction]") {
+TEST_CASE("block Lanczos: a free cube has the frequencies that ARPACK finds, including pairs", "[reduction]") {
   const test::SolidModel cube(test::box_mesh({{1, 1, 1}, {4, 4, 4}}), test::steel());
   const Eigen::VectorXd frequencies = cube.frequencies(30);
   int pairs = 0;
@@ -37,7 +37,7 @@ TEST_CASE("block Lanczos: a free cube has the frequencies that ARPACK finds, pai
   compare(cube, 30);
 }
 
-TEST_CASE("block Lanczos: a square bar held at an end bends at pairs of frequencies", "[reduction]") {
+TEST_CASE("block Lanczos: a square bar held at one end has pairs of bending frequencies", "[reduction]") {
   const test::SolidModel bar(test::box_mesh({{4, 0.2, 0.2}, {20, 2, 2}}), test::steel(),
                              [](const Eigen::Vector3d& x, int) { return x.x() < 1e-9; });
   compare(bar, 25);

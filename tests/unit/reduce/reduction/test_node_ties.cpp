@@ -1,4 +1,4 @@
-// Ties of nodes with weights, as decks have them.
+// Tests of ties of nodes with weights, which come from decks.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Returns the nodes of a surface with weights 1, 2, 3, .. in place of areas.
+/// Returns the nodes of a surface, with weights 1, 2, 3, .. in place of areas.
 Group weighted(const Mesh& mesh, const std::string& surface) {
   Group group;
   group.nodes = mesh.groups.at(surface).nodes;
@@ -36,7 +36,7 @@ InterfaceRequest turned_interface(Tie tie) {
 
 }  // namespace
 
-TEST_CASE("An average of weighted nodes follows rigid motions exactly, and loses neither force nor moment") {
+TEST_CASE("An average of weighted nodes follows rigid motions exactly, and preserves force and moment") {
   const Mesh mesh = block_with_nodes();
   InterfaceRequest request = turned_interface(Tie::average);
   const Eigen::Vector3d about(0.1, 0.2, 0.3);
@@ -49,8 +49,9 @@ TEST_CASE("An average of weighted nodes follows rigid motions exactly, and loses
   CHECK((resultants - Eigen::MatrixXd::Identity(6, 6)).norm() < 1e-12);  // terms of the order arm / width = 10
 }
 
-TEST_CASE("A force on the centroid of weighted nodes is shared by their weights, a moment as of bolts") {
-  // Bolt pattern: F_a = w_a / W F and w_a M x r_a / sum w |r|^2 for plane nodes and a moment normal to their plane.
+TEST_CASE("A force on the centroid of nodes is shared by their weights, and a moment as in a bolt pattern") {
+  // The forces of a plane bolt pattern are F_a = w_a / W F, and w_a M x r_a / sum w |r|^2 for a moment normal to its
+  // plane.
   Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
   mesh.groups["hub"] = weighted(mesh, "x1");
   const Group& group = mesh.groups.at("hub");
@@ -76,7 +77,7 @@ TEST_CASE("A force on the centroid of weighted nodes is shared by their weights,
   }
 }
 
-TEST_CASE("A rigid tie of nodes carries them, and no others of their surface") {
+TEST_CASE("A rigid tie of nodes moves these nodes, and no others of their surface") {
   Mesh mesh = block_with_nodes();
   Group& group = mesh.groups.at("hub");
   const int left_out = group.nodes.back();

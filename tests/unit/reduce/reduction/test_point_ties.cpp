@@ -1,4 +1,4 @@
-// Named points: the mean of a surface with the weights of the average tie, and places in the mesh.
+// Tests of named points: means of a surface with the weights of the average tie, and places in the mesh.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
@@ -27,24 +27,24 @@ TEST_CASE("A point on a surface moves as the node of an average tie does") {
   }
 }
 
-TEST_CASE("Points follow rigid motions exactly and pass loads on without loss") {
+TEST_CASE("Points follow rigid motions exactly, and preserve the resultants of loads") {
   const Mesh mesh = test::twisted_block();
   const Solid solid = test::steel_solid(mesh);
-  // At a node, between nodes, and a little off the surface.
+  // The places are at a node, between nodes, and slightly outside of the surface.
   std::vector<PointRequest> requests = {test::point_at("node", mesh.points.col(40)),
                                         test::point_at("inside", mass_properties(solid).centre),
                                         test::point_on("pad", "z1")};
   requests.push_back(test::point_at("beside", mesh.points.rowwise().maxCoeff() + Eigen::Vector3d(0.01, -0.03, -0.03)));
   for (const TiedPoint& point : tie_points(solid, requests, "box")) {
     CAPTURE(point.request.name);
-    // Terms of the order arm / distance of the nodes = 10.
+    // Terms are of the order arm / distance of the nodes = 10.
     const Eigen::MatrixXd resultants = point.spread.transpose() * rigid_motions(mesh.points, point.position);
     CHECK((resultants - Eigen::MatrixXd::Identity(6, 6)).norm() < 1e-11);
   }
 }
 
-TEST_CASE("The point of a surface has the mean of a field over its area") {
-  // u = (y^2, 0, 0) on the side x = 1 of a unit box: see the same test of the average tie.
+TEST_CASE("The point of a surface has the mean of a field over the area") {
+  // The field is u = (y^2, 0, 0) on the side x = 1 of a unit box, as in the test of the average tie.
   const Mesh mesh = test::distorted_box_mesh({{1, 1, 1}, {2, 3, 2}}, 0.2);
   RowMatrix field = RowMatrix::Zero(3 * mesh.point_count(), 1);
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) field(3 * a, 0) = mesh.points(1, a) * mesh.points(1, a);
@@ -55,7 +55,7 @@ TEST_CASE("The point of a surface has the mean of a field over its area") {
   CHECK((points.at("pad").position - Eigen::Vector3d(1, 0.5, 0.5)).norm() < 1e-14);
 }
 
-TEST_CASE("A point in the mesh is in a field that is linear in space as the field is there") {
+TEST_CASE("The displacement and rotation of a point in the mesh are exact for a field that is linear in space") {
   const Mesh mesh = test::twisted_block();
   const Eigen::Vector3d place = mesh.points.rowwise().mean();
   Eigen::Matrix3d gradient;
@@ -68,7 +68,7 @@ TEST_CASE("A point in the mesh is in a field that is linear in space as the fiel
   CHECK((points.at("p").shapes - expected).norm() < 1e-11 * expected.norm());
 }
 
-TEST_CASE("Points that cannot be are refused with their key") {
+TEST_CASE("Impossible points are refused with their key") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
   const auto refusal = [&](const std::vector<PointRequest>& requests) {
     return message_of<InputError>([&] { tie_points(test::steel_solid(mesh), requests, "box"); });

@@ -12,7 +12,7 @@ using namespace bielle;
 using namespace bielle::reduce;
 using Catch::Contains;
 
-TEST_CASE("Reduced loads have the resultants of the loads, component by component") {
+TEST_CASE("The components of reduced loads have the resultants of the loads") {
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.2}, {4, 2, 2}});
   ReductionOptions options = test::steel_body(Tie::average, Tie::rigid, 2);
   LoadRequest pressure{"pressure", "z1", 1e5, {}, {}, "loads.pressure"};
@@ -22,7 +22,7 @@ TEST_CASE("Reduced loads have the resultants of the loads, component by componen
   const Superelement body = test::reduced(mesh, options);
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   const Eigen::MatrixXd u = rigid_coordinates(body, origin);
-  // Work on rigid motions of the pattern that follows the body: sum of component k along axis k.
+  // The work on rigid motions belongs to the pattern that follows the body, the sum of component k along axis k.
   const auto resultant = [&](const std::string& name) {
     const auto& f = body.loads.at(name).force;
     return Eigen::VectorXd((f[0].row(0) + f[1].row(1) + f[2].row(2)) * u);
@@ -35,17 +35,17 @@ TEST_CASE("Reduced loads have the resultants of the loads, component by componen
   CHECK((resultant("pressure") - expected({0, 0, -1e5 * 0.04}, {0.2, 0.05, 0.2})).norm() < 1e-8);
   CHECK((resultant("force") - expected({3, -2, 5}, {0.2, 0, 0.1})).norm() < 1e-12);
   CHECK((resultant("traction") - expected(Eigen::Vector3d(100, 200, -50) * 0.08, {0.2, 0.1, 0.1})).norm() < 1e-11);
-  // Component z of the pressure turned to act along x.
+  // Component z of the pressure is turned to act along x.
   const Eigen::VectorXd turned = body.loads.at("pressure").force[2].row(0) * u;
   CHECK((turned - expected({-4000, 0, 0}, {0.2, 0.05, 0.2})).norm() < 1e-8);
 }
 
-TEST_CASE("Loads that make no sense are refused with their place") {
+TEST_CASE("Meaningless loads are refused with their place") {
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.2}, {4, 2, 2}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid);
   options.loads = {{"p", "z7", 1e5, {}, {}, "loads.p"}};
   CHECK_THROWS_WITH(test::reduced(mesh, options), Contains("loads.p: the mesh has no surface group 'z7'"));
-  // A face between two cells, called "cut".
+  // The group "cut" is a face between two cells.
   Mesh cut = mesh;
   const auto tet = cut.blocks[0].nodes.col(0);
   for (const auto& [a, b, c, ab, bc, ac] :
@@ -53,7 +53,7 @@ TEST_CASE("Loads that make no sense are refused with their place") {
     Eigen::VectorXi face(6);
     face << tet(a), tet(b), tet(c), tet(ab), tet(bc), tet(ac);
     const Eigen::Matrix3Xd x = cut.points(Eigen::all, face);
-    if (((x.colwise() - x.col(0)).rowwise().norm().array() > 1e-9).all()) {  // on no side of the box
+    if (((x.colwise() - x.col(0)).rowwise().norm().array() > 1e-9).all()) {  // not on a side of the box
       cut.blocks[1].nodes.conservativeResize(Eigen::NoChange, cut.blocks[1].nodes.cols() + 1);
       cut.blocks[1].nodes.rightCols<1>() = face;
     }
@@ -63,7 +63,7 @@ TEST_CASE("Loads that make no sense are refused with their place") {
   CHECK_THROWS_WITH(test::reduced(cut, options), Contains("loads.p: surface 'cut' has faces inside the body"));
 }
 
-TEST_CASE("Displacements of the skin are those of the whole mesh at its points") {
+TEST_CASE("Displacements of the surface are those of the whole mesh at its points") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::average, Tie::rigid, 3);
   const Superelement whole = test::reduced(mesh, options);
@@ -93,7 +93,8 @@ TEST_CASE("Displacements of the skin are those of the whole mesh at its points")
 }
 
 TEST_CASE("A bar pulled at its ends recovers the stress of the closed form") {
-  // Poisson's ratio zero: the end faces, tied rigidly, do not hinder the bar. Elongation e: sigma = E e / L everywhere.
+  // With Poisson's ratio 0 the rigid ties of the end faces do not constrain the bar. An elongation e causes sigma = E e
+  // / L everywhere.
   const Mesh mesh = test::distorted_box_mesh({{0.5, 0.1, 0.1}, {4, 3, 3}}, 0.2);
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid);
   options.materials["steel"] = Material::isotropic(200e9, 0, 7800);
@@ -111,7 +112,7 @@ TEST_CASE("A bar pulled at its ends recovers the stress of the closed form") {
   CHECK(body.stiffness(6, 6) == Approx(200e9 * 0.01 / 0.5).epsilon(1e-10));
 }
 
-TEST_CASE("At a boundary of materials a node has the material whose stress it has, and belongs to its volumes") {
+TEST_CASE("A node between two materials has the material of its stress, and belongs to the volumes of this material") {
   Mesh mesh = test::box_mesh({{0.4, 0.1, 0.1}, {4, 2, 2}});
   Group soft{3, {{CellType::tet10, {}}}, {}}, hard = soft;
   for (Eigen::Index e = 0; e < mesh.blocks[0].nodes.cols(); ++e) {

@@ -22,8 +22,8 @@ using Catch::Contains;
 namespace {
 
 double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  // Entries have different units: those of coordinates i, j are compared on the scale of the diagonals, some of which
-  // may be zero (a direction that alone holds a rigid motion has no stiffness).
+  // Entries have different units. The entry of coordinates i, j is compared on the scale of the diagonals, some of
+  // which may be zero (a direction that alone holds a rigid motion has no stiffness).
   const double largest = a.diagonal().cwiseAbs().maxCoeff();
   const Eigen::VectorXd scale = a.diagonal().cwiseAbs().cwiseMax(1e-6 * largest).cwiseSqrt().cwiseInverse();
   return (scale.asDiagonal() * (a - b) * scale.asDiagonal()).cwiseAbs().maxCoeff();
@@ -31,7 +31,8 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integrals to rounding, whatever its ties") {
+TEST_CASE(
+    "A reduced body has exact rigid motions, mass properties and inertia integrals up to rounding, for any ties") {
   const int variant = GENERATE(0, 1, 2, 3, 4);
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 6);
   if (variant == 1) {
@@ -55,7 +56,7 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
     CHECK(check.passed());
     values[check.name] = check.value;
   }
-  // The bounds are closer than those of the checks, which allow for slender bodies and fine meshes.
+  // The bounds are closer than those of the product's checks, which allow for slender bodies and fine meshes.
   for (const char* exact :
        {"rigid_motion_force", "mass_error", "centre_error", "inertia_error", "rigid_motion_recovery",
         "inertia_components_error", "rigid_motion_stress", "mode_orthogonality"}) {
@@ -70,7 +71,7 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
   if (!body.load_stiffness.empty()) {
     CHECK(values.at("load_stiffness_virial") < 1e-9);
   }
-  // Constraint and fixed-boundary modes do not couple; modes are mass-normalised.
+  // The stiffness does not couple constraint modes and fixed-boundary modes; modes are mass-normalised.
   const Eigen::Index m = body.modes(), b = body.interface_directions();
   CHECK(body.stiffness.topRightCorner(b, m).norm() == 0);
   const Eigen::VectorXd omega2 = (2 * std::numbers::pi * body.frequencies).cwiseAbs2();
@@ -78,21 +79,21 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
   CHECK(check_superelement(body).size() >= 8);
 }
 
-TEST_CASE("Free-free frequencies of the reduced body lie above those of the full model and approach them") {
+TEST_CASE("Free frequencies of the reduced body are above those of the full model, and converge to them") {
   const Mesh mesh = test::twisted_block();
-  const Eigen::VectorXd full = test::SolidModel(mesh, test::steel()).frequencies(4);  // without any tie
+  const Eigen::VectorXd full = test::SolidModel(mesh, test::steel()).frequencies(4);  // the full model has no ties
   double previous = 1e9;
   for (const int modes : {0, 4, 12, 30}) {
     const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, modes));
     const Eigen::VectorXd error = free_frequencies(body).head(4).cwiseQuotient(full).array() - 1;
-    CHECK(error.minCoeff() > -1e-10);  // Rayleigh and Ritz, but for rounding
+    CHECK(error.minCoeff() > -1e-10);  // the Rayleigh-Ritz bound, up to rounding
     CHECK(error.maxCoeff() < previous);
     previous = error.maxCoeff();
   }
-  CHECK(previous < 5e-3);  // with modes beyond twice these frequencies: the rule of thumb of the method
+  CHECK(previous < 5e-3);  // modes up to more than twice these frequencies, the rule of thumb of the method
 }
 
-TEST_CASE("Interface axes turn the coordinates and nothing else") {
+TEST_CASE("Interface axes rotate the coordinates and change nothing else") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
   const Superelement plain = test::reduced(mesh, options);
@@ -107,7 +108,7 @@ TEST_CASE("Interface axes turn the coordinates and nothing else") {
   CHECK(difference(transform.transpose() * plain.mass * transform, turned.mass) < 1e-8);
 }
 
-TEST_CASE("The interface's node moves along its rigid arm and changes nothing else") {
+TEST_CASE("Another position of the interface node only transforms the coordinates by the rigid arm") {
   const Mesh mesh = test::twisted_block();
   const Tie tie = GENERATE(Tie::rigid, Tie::average);
   ReductionOptions options = test::steel_body(tie, Tie::average, 3);
@@ -135,18 +136,18 @@ TEST_CASE("Directions that are not kept are condensed statically") {
   CHECK(difference(condensed, some) < 1e-8);
 }
 
-TEST_CASE("An average interface stays softer than a rigid one") {
+TEST_CASE("An average interface is softer than a rigid one") {
   const Mesh mesh = test::twisted_block();
   const Superelement rigid = test::reduced(mesh, test::steel_body(Tie::rigid, Tie::rigid));
   const Superelement average = test::reduced(mesh, test::steel_body(Tie::average, Tie::average));
-  const Eigen::MatrixXd gain = rigid.stiffness - average.stiffness;  // a constraint only adds stiffness
+  const Eigen::MatrixXd gain = rigid.stiffness - average.stiffness;  // a constraint can only add stiffness
   const Eigen::VectorXd scale = rigid.stiffness.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd values = symmetric_eigenpairs(scale.asDiagonal() * gain * scale.asDiagonal()).values;
   CHECK(values.minCoeff() > -1e-9);
   CHECK(values.maxCoeff() > 1e-3);
 }
 
-TEST_CASE("Modes are counted, limited by frequency, or both") {
+TEST_CASE("Modes are limited by number, by frequency, or by both") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 12);
   const Eigen::VectorXd twelve = test::reduced(mesh, options).frequencies;
@@ -164,13 +165,14 @@ TEST_CASE("Modes are counted, limited by frequency, or both") {
   CHECK(test::reduced(mesh, options).modes() == 0);
 }
 
-TEST_CASE("Effective masses add up to what the constraint modes leave") {
+TEST_CASE("The sum of effective masses is the part that the constraint modes do not contain") {
   const Mesh mesh = test::box_mesh({{0.2, 0.1, 0.1}, {2, 1, 1}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid);
   options.interfaces.pop_back();
-  options.modes.count = 108;  // all of them: 36 points inside
+  options.modes.count = 108;  // all modes, since there are 36 inner points
   const Superelement body = test::reduced(mesh, options);
-  // With every mode, Phi Phi^T = M_ii^-1: the sums are (M U)_i^T M_ii^-1 (M U)_i, U rigid motions about the centre.
+  // With all modes, Phi Phi^T = M_ii^-1, so that the sums are (M U)_i^T M_ii^-1 (M U)_i with the rigid motions U about
+  // the centre.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const NodeGraph graph = node_graph(solid.mesh);
   const NodeMatrix mass = assemble_mass(solid, graph);
@@ -195,7 +197,7 @@ TEST_CASE("Effective masses add up to what the constraint modes leave") {
   CHECK((sums - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff() < 1e-10);
 }
 
-TEST_CASE("Damping is modal on the free body, or Rayleigh's") {
+TEST_CASE("Damping is modal damping of the free body, or Rayleigh damping") {
   const Mesh mesh = test::twisted_block();
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
   options.damping_ratios = {0.02};
@@ -203,8 +205,9 @@ TEST_CASE("Damping is modal on the free body, or Rayleigh's") {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(15, 6);
   u.topRows(12) = interface_rigid_motions(body.interfaces, body.centre);
   CHECK(relative_force(body.damping, body.mass, u) < 1e-12);
-  // State matrix of M q.. + C q. + K q = 0, of (w q, q.): decay over frequency is the ratio, for every elastic mode.
-  // With w the size of the highest frequency both halves are of one size; otherwise eigenvalues are rounded by w^2.
+  // The state matrix of M q.. + C q. + K q = 0 has the states (w q, q.). The ratio of each elastic mode is its decay
+  // over its frequency. If w is close to the highest frequency, both halves have similar sizes; otherwise the rounding
+  // of eigenvalues grows with w^2.
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(30, 30);
   const Eigen::MatrixXd inverse = regular_inverse(body.mass).value();
   const double w = std::sqrt((inverse * body.stiffness).norm());

@@ -1,4 +1,4 @@
-// Bodies in pieces: each piece against its own reduction, all together against the uncut body.
+// Compares each piece of a body with its own reduction, and all pieces together with the uncut body.
 #include <cmath>
 #include <numbers>
 
@@ -46,7 +46,7 @@ void check_same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   CHECK((a - b).norm() < 1e-9 * b.norm());
 }
 
-/// Returns the resultant of a pattern that follows the body: its work in unit translations.
+/// Returns the resultant of a load pattern that follows the body, as its work in unit translations.
 Eigen::Vector3d resultant(const Superelement& piece, const std::string& pattern) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(piece.size(), 6);
   rigid.topRows(piece.interface_directions()) = interface_rigid_motions(piece.interfaces, piece.centre);
@@ -57,7 +57,7 @@ Eigen::Vector3d resultant(const Superelement& piece, const std::string& pattern)
 
 }  // namespace
 
-TEST_CASE("a piece is what its part of the body is when it is reduced by itself") {
+TEST_CASE("a piece equals the reduction of its part of the body by itself") {
   const CutBody body = in_pieces(box_mesh(bar), steel_body(Tie::rigid, Tie::average, 3), {0.3}, {Tie::rigid, false});
   REQUIRE(body.pieces.size() == 2);
   CHECK(body.pieces[1].name == "box.2");
@@ -65,7 +65,7 @@ TEST_CASE("a piece is what its part of the body is when it is reduced by itself"
     const Superelement& piece = body.pieces[k];
     const Box part{{k == 0 ? 0.3 : 0.5, 0.1, 0.1}, {k == 0 ? 3 : 5, 1, 1}};
     ReductionOptions options = steel_body(Tie::rigid, Tie::rigid, 3);
-    // A piece has its own interfaces first, then its sides of the cuts.
+    // The interfaces of a piece come first, then its sides of the cuts.
     if (k == 0) options.interfaces = {interface("a", "x0", Tie::rigid), interface("cut_1", "x1", Tie::rigid)};
     if (k == 1) options.interfaces = {interface("b", "x1", Tie::average), interface("cut_1", "x0", Tie::rigid)};
     const Superelement alone = reduced(
@@ -82,7 +82,7 @@ TEST_CASE("a piece is what its part of the body is when it is reduced by itself"
   CHECK(body.pieces[0].interfaces[1].position == body.pieces[1].interfaces[1].position);
 }
 
-TEST_CASE("points belong to the piece in which they are, with their residual vectors") {
+TEST_CASE("points and their residual vectors belong to the piece that contains them") {
   ReductionOptions options = steel_body(Tie::rigid, Tie::rigid, 2);
   options.points = {point_at("near", {0.1, 0.05, 0.05}), point_at("far", {0.7, 0.05, 0.05}), point_on("end", "x1")};
   options.points[1].residual.fill(true);
@@ -99,21 +99,21 @@ TEST_CASE("points belong to the piece in which they are, with their residual vec
                                                "a point belongs to one"));
 }
 
-TEST_CASE("free cuts leave the body as it is: all its nodes are common to both sides") {
+TEST_CASE("free cuts do not change the body, since all of their nodes are common to both sides") {
   const CutBody body = in_pieces(box_mesh(bar), steel_body(Tie::rigid, Tie::average, 8), {0.4}, {Tie::free, true});
-  CHECK(shared_interfaces(body.pieces).size() == 9);  // corners and mid-side nodes of two triangles
+  CHECK(shared_interfaces(body.pieces).size() == 9);  // the corners and mid-side nodes of two triangles
   REQUIRE(body.effect.stiffness_ratios.size() == 2);
   CHECK(body.effect.stiffness_ratios[0] == Approx(1).epsilon(1e-8));
   CHECK(body.effect.stiffness_ratios[1] == Approx(1).epsilon(1e-8));
-  // The difference is due to the modes that either model neglects: some 1e-4 of the first frequencies.
+  // The difference is due to modes that the models neglect, about 1e-4 of the first frequencies.
   for (int k = 0; k < 3; ++k) CHECK(body.free_frequencies(k) == Approx(body.effect.uncut_frequencies(k)).epsilon(1e-3));
 }
 
-TEST_CASE("rigid cuts stiffen, averaging ones soften, and either is measured") {
+TEST_CASE("rigid cuts stiffen a body, averaging ones soften it, and both errors are reported") {
   const Mesh mesh = box_mesh(bar);
   const CutBody rigid = in_pieces(mesh, steel_body(Tie::rigid, Tie::rigid, 5), {0.2, 0.4, 0.6});
-  // The pieces' displacements are a subset of those of the uncut mesh (Rayleigh and Ritz): the stiffness is not lower
-  // for any load, and all frequencies are higher than those of the full model.
+  // The displacements of the pieces are a subspace of those of the uncut mesh (Rayleigh-Ritz): the stiffness is not
+  // lower for any load, and no frequency is lower than that of the full model.
   CHECK(rigid.effect.stiffness_ratios[0] > 1 - 1e-9);
   CHECK(rigid.effect.stiffness_ratios[1] > 1.001);
   CHECK(rigid.effect.stiffness_ratios[1] < 1.2);
@@ -127,7 +127,7 @@ TEST_CASE("rigid cuts stiffen, averaging ones soften, and either is measured") {
   CHECK(average.effect.stiffness_ratios[1] < 1 + 1e-9);
 }
 
-TEST_CASE("without Poisson's contraction rigid cuts hinder warping alone: bending and stretching stay exact") {
+TEST_CASE("without lateral contraction rigid cuts only prevent warping: bending and stretching are exact") {
   ReductionOptions options = steel_body(Tie::rigid, Tie::rigid, 4);
   options.materials = {{"steel", Material::isotropic(210e9, 0, 7800)}};
   const CutBody body = in_pieces(box_mesh(bar), options, {0.2, 0.6});
@@ -139,7 +139,7 @@ TEST_CASE("without Poisson's contraction rigid cuts hinder warping alone: bendin
   for (Eigen::Index k = 0; k < whole.size(); ++k)
     if (k >= 6) loose.push_back(k);
   const Eigen::MatrixXd compliance = bielle::regular_inverse(stiffness(loose, loose)).value();
-  // Interfaces: a, cut_1, cut_2, b. Tip under a pull and under a moment about z.
+  // The interfaces are a, cut_1, cut_2 and b. The tip is loaded by a pull and by a moment about z.
   const Eigen::Index tip = 12;
   const double area = 0.01, inertia = 1e-4 / 12;
   CHECK(compliance(tip, tip) == Approx(0.8 / (210e9 * area)).epsilon(1e-8));
@@ -161,7 +161,7 @@ TEST_CASE("all pieces together have the mass, centre and inertia of the body") {
   CHECK((whole.inertia - uncut.inertia).norm() < 1e-12 * uncut.inertia.norm());
 }
 
-TEST_CASE("loads go to the pieces that their surface reaches into, in shares of its area") {
+TEST_CASE("loads are shared by the pieces that contain their surface, in proportion to the area") {
   ReductionOptions options = steel_body(Tie::rigid, Tie::rigid);
   LoadRequest snow, push, wind;
   snow.name = "snow", snow.group = "z1", snow.pressure = 1000;
@@ -191,7 +191,7 @@ TEST_CASE("a ratio of damping is that of the first mode of the whole body") {
   CHECK((whole.damping * rigid).norm() < 1e-9 * whole.damping.norm());
 }
 
-TEST_CASE("requests that do not fit pieces are refused with their key") {
+TEST_CASE("requests that pieces do not support are refused with their key") {
   ReductionOptions options = steel_body(Tie::rigid, Tie::rigid);
   options.interfaces[1] = interface("side", "y1", Tie::average);
   CHECK_THAT(refusal(options, {0.2, 0.6}),

@@ -11,7 +11,7 @@ using namespace bielle::reduce;
 
 namespace {
 
-/// Two masses of 1 and 3 kg on a spring of 12 N/m, sliding freely: omega^2 = 12 (1 + 1/3).
+/// Two masses of 1 and 3 kg slide freely and are connected by a spring of 12 N/m: omega^2 = 12 (1 + 1/3).
 const Eigen::Matrix2d stiffness = (Eigen::Matrix2d() << 12, -12, -12, 12).finished();
 const Eigen::Matrix2d mass = (Eigen::Matrix2d() << 1, 0, 0, 3).finished();
 const Eigen::MatrixXd rigid = Eigen::MatrixXd::Ones(2, 1);
@@ -26,7 +26,7 @@ TEST_CASE("Free modes of two masses and a spring") {
   CHECK(modes.vectors(0, 0) == Approx(-3 * modes.vectors(1, 0)).epsilon(1e-13));
 }
 
-TEST_CASE("A body that only moves rigidly has no elastic modes") {
+TEST_CASE("A rigid body has no elastic modes") {
   const FreeModes modes =
       free_modes(Eigen::MatrixXd::Zero(1, 1), Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Ones(1, 1));
   CHECK(modes.omega.size() == 0);
@@ -35,7 +35,7 @@ TEST_CASE("A body that only moves rigidly has no elastic modes") {
 TEST_CASE("Modal damping damps each elastic mode by its ratio and no rigid motion") {
   const FreeModes modes = free_modes(stiffness, mass, rigid);
   const Eigen::MatrixXd damping = modal_damping(modes, mass, {0.05});
-  // A dashpot c between the masses: zeta = c (1 + 1/3) / (2 omega), hence c = 0.05 * 2 * 4 / (4/3) = 0.3.
+  // A dashpot c between the masses causes zeta = c (1 + 1/3) / (2 omega), hence c = 0.05 * 2 * 4 / (4/3) = 0.3.
   CHECK((damping - 0.3 / 12 * stiffness).norm() < 1e-14);
   CHECK((damping * rigid).norm() < 1e-14);
   CHECK(modal_damping(modes, mass, {}).norm() == 0);
@@ -43,7 +43,7 @@ TEST_CASE("Modal damping damps each elastic mode by its ratio and no rigid motio
                     Catch::Contains("2 values for a reduced body with 1 elastic mode"));
 }
 
-TEST_CASE("A list of ratios goes to the modes in order, the last to all further ones") {
+TEST_CASE("A list of ratios applies to the modes in order, its last ratio to all further modes") {
   const Eigen::Vector3d omega(1, 2, 3);
   const FreeModes modes{omega, Eigen::Matrix3d::Identity()};
   const Eigen::MatrixXd damping = modal_damping(modes, Eigen::Matrix3d::Identity(), {0.1, 0.02});

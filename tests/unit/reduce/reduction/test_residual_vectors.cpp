@@ -1,4 +1,5 @@
-// Residual vectors: static answers against those of the full mesh, orthogonality, and loads without a remainder.
+// Tests of residual vectors: static responses compared with the full mesh, orthogonality, and loads without a
+// remainder.
 #include <cmath>
 
 #include <Eigen/LU>
@@ -35,7 +36,7 @@ struct FullMesh {
   }
 };
 
-/// Its interface "b" follows the mesh without stiffening it, so that the full mesh does not need it.
+/// Interface "b" follows the mesh without stiffening it, so that the full mesh does not need it.
 ReductionOptions body_with_points(const FullMesh& full, Tie tie, int modes, const std::array<bool, 6>& residual) {
   ReductionOptions options = test::steel_body(tie, Tie::average, modes);
   options.points = {test::point_at("inside", full.centre()), test::point_on("pad", "y1")};
@@ -86,12 +87,12 @@ TEST_CASE("With residual vectors the static displacement under forces and moment
   CHECK(largest > 0.05);
 }
 
-TEST_CASE("Residual vectors follow directions that an interface releases") {
-  // With all interfaces held only modes and residual vectors move: their part of the compliance is the mesh's.
+TEST_CASE("Residual vectors contain the directions that an interface releases") {
+  // If all interfaces are held, only modes and residual vectors move, and have the compliance of the mesh.
   const FullMesh full;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 5);
   options.interfaces[1].kept = {true, true, true, false, true, false};
-  // Nodes of the released surface are under the pad, and turn.
+  // Nodes of the released surface are under the pad and rotate.
   options.points = {test::point_on("pad", "y1")};
   options.points.front().residual = all_six;
   const Superelement body = test::reduced(full.mesh, options);
@@ -104,7 +105,7 @@ TEST_CASE("Residual vectors follow directions that an interface releases") {
   CHECK((found - exact).norm() < 1e-9 * exact.norm());
 }
 
-TEST_CASE("Residual vectors of some directions leave the others as they were") {
+TEST_CASE("Residual vectors of some directions do not change the others") {
   const FullMesh full;
   const ReductionOptions options = body_with_points(full, Tie::rigid, 4, {true, false, false, false, true, false});
   const Superelement body = test::reduced(full.mesh, options);
@@ -130,26 +131,27 @@ TEST_CASE("Residual vectors are orthogonal in stiffness and mass among themselve
   const Eigen::MatrixXd K = omega.cwiseInverse().asDiagonal() *
                             Eigen::MatrixXd(shapes.transpose() * full.stiffness.multiply(shapes)) *
                             omega.cwiseInverse().asDiagonal();
-  CHECK((K - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff() < 1e-7);  // error of the iteration in its modes
+  CHECK((K - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff() < 1e-7);  // error of the iterated modes
   CHECK((K - Eigen::MatrixXd::Identity(m, m)).bottomRightCorner(residual, residual).cwiseAbs().maxCoeff() < 1e-9);
-  // Constraint modes cause no force inside.
+  // Constraint modes cause no force on inner nodes.
   const RowMatrix constraint = body.displacement_recovery.leftCols(m > 0 ? body.interface_directions() : 0);
   const Eigen::MatrixXd coupling = constraint.transpose() * full.stiffness.multiply(shapes.rightCols(residual));
   CHECK(coupling.cwiseAbs().maxCoeff() <
         1e-8 * std::sqrt(body.stiffness.diagonal().maxCoeff() * body.stiffness(body.size() - 1, body.size() - 1)));
   CHECK(body.stiffness.bottomRightCorner(residual, residual).isDiagonal(0));
-  // Rayleigh quotients of fields that are orthogonal to all lower modes.
+  // These are Rayleigh quotients of fields that are orthogonal to all lower modes.
   for (Eigen::Index k = m - residual; k < m; ++k) CHECK(body.frequencies(k) > body.frequencies(k - 1));
 }
 
-TEST_CASE("With residual vectors the static answer to a load pattern is that of the mesh, along any axis") {
+TEST_CASE("With residual vectors the static response to a load pattern is that of the mesh, along any axis") {
   const FullMesh full;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
   LoadRequest traction{"wind", "z1", {}, Eigen::Vector3d(1e5, -2e5, 3e5), {}, "loads.wind", true};
   LoadRequest pressure{"gas", "y0", 1e5, {}, {}, "loads.gas", true};
   options.loads = {traction, pressure};
   const Superelement body = test::reduced(full.mesh, options);
-  // The nine combinations of a traction are three loads; the normals of the twisted side have all directions.
+  // The nine combinations of a traction are only three loads; the pressure has nine, since the normals of the twisted
+  // side have all directions.
   CHECK(body.residual_vectors == 3 + 9);
   for (const LoadRequest& load : options.loads) {
     const SurfaceIntegrals surface = integrate_surface(full.mesh, load.group);
@@ -168,11 +170,11 @@ TEST_CASE("With residual vectors the static answer to a load pattern is that of 
   }
 }
 
-TEST_CASE("Loads that depend on each other share their residual vectors") {
+TEST_CASE("Linearly dependent loads share their residual vectors") {
   const FullMesh full;
   ReductionOptions options = body_with_points(full, Tie::rigid, 4, all_six);
   options.points.push_back(test::point_on("again", "y1"));
-  options.points.back().position = Eigen::Vector3d(0.3, 0.4, 0.5);  // the same forces and moments on another arm
+  options.points.back().position = Eigen::Vector3d(0.3, 0.4, 0.5);  // the same forces and moments with another arm
   options.points.back().residual.fill(true);
   CHECK(test::reduced(full.mesh, options).residual_vectors == 12);
 }
@@ -183,7 +185,7 @@ TEST_CASE("A pressure on a plane has one component, which may act along three ax
   CHECK(test::reduced(test::box_mesh({{0.3, 0.1, 0.1}, {3, 1, 1}}), options).residual_vectors == 3);
 }
 
-TEST_CASE("Where interfaces or modes leave nothing, residual vectors are refused") {
+TEST_CASE("Residual vectors are refused if interfaces or modes leave no remainder") {
   const Mesh mesh = test::box_mesh({{0.3, 0.1, 0.1}, {3, 1, 1}});
   const auto refusal = [&](Tie tie, int modes, const std::string& group) {
     ReductionOptions options = test::steel_body(tie, tie, modes);
@@ -194,6 +196,6 @@ TEST_CASE("Where interfaces or modes leave nothing, residual vectors are refused
   const std::string says = "points.pin: its loads leave nothing for residual vectors";
   CHECK_THAT(refusal(Tie::rigid, 2, "x0"), Contains(says));
   CHECK_THAT(refusal(Tie::average, 2, "x1"), Contains(says));
-  const int every = 3 * 9 * 5;  // five layers of nine nodes, mid-side ones included, are not tied
+  const int every = 3 * 9 * 5;  // five layers of nine nodes, including mid-side ones, are not tied
   CHECK_THAT(refusal(Tie::rigid, every, "y1"), Contains(says));
 }

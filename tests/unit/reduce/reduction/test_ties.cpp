@@ -10,7 +10,7 @@ using namespace bielle;
 using namespace bielle::reduce;
 using Catch::Contains;
 
-TEST_CASE("An average interface follows rigid motions of its surface exactly, wherever its node is") {
+TEST_CASE("An average interface follows rigid motions of its surface exactly, for any position of its node") {
   const Mesh mesh = test::twisted_block();
   InterfaceRequest request = test::interface("a", "x1", Tie::average);
   request.position = Eigen::Vector3d(0.7, -0.2, 0.3);
@@ -21,19 +21,19 @@ TEST_CASE("An average interface follows rigid motions of its surface exactly, wh
   CHECK((ties.spread.transpose() * u - q).norm() < 1e-12);  // terms of the order arm / width of the surface = 10
 }
 
-TEST_CASE("A load on an average interface is spread without loss of force or moment") {
+TEST_CASE("A load on an average interface is distributed without loss of force or moment") {
   const Mesh mesh = test::twisted_block();
   InterfaceRequest request = test::interface("a", "x1", Tie::average);
   request.position = Eigen::Vector3d(0.7, -0.2, 0.3);
   const Ties ties = make_ties(test::steel_solid(mesh), {request});
-  // Resultants about the interface's node are the work on rigid motions about it.
+  // The resultants about the interface's node are the work on rigid motions about it.
   const Eigen::MatrixXd resultants = rigid_motions(mesh.points, *request.position).transpose() * ties.spread;
   CHECK((resultants - Eigen::MatrixXd::Identity(6, 6)).norm() < 1e-12);  // terms of the order arm / width = 10
 }
 
-TEST_CASE("The mean of a surface's displacement is area-weighted, whatever the mesh") {
-  // u = (y^2, 0, 0) on the side x = 1 of a unit box: mean 1/3, and no mean rotation about y; about z it is
-  // -int (y - 1/2) y^2 / int ((y - 1/2)^2) with the side's polar moment about z: -(1/4 - 1/6) / (1/12) = -1.
+TEST_CASE("The mean displacement of a surface is weighted by area, on any mesh") {
+  // The field u = (y^2, 0, 0) on the side x = 1 of a unit box has the mean 1/3 and no mean rotation about y. The mean
+  // rotation about z is -int (y - 1/2) y^2 / int (y - 1/2)^2 = -(1/4 - 1/6) / (1/12) = -1.
   const Mesh mesh = test::distorted_box_mesh({{1, 1, 1}, {2, 3, 2}}, 0.2);
   const Ties ties = make_ties(test::steel_solid(mesh), {test::interface("a", "x1", Tie::average)});
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * mesh.point_count());
@@ -45,7 +45,7 @@ TEST_CASE("The mean of a surface's displacement is area-weighted, whatever the m
   CHECK((ties.spread.transpose() * u - expected).norm() < 1e-13);
 }
 
-TEST_CASE("A rigid interface carries its surface, in its own axes, and by default from the area's centroid") {
+TEST_CASE("A rigid interface moves its surface, in its own axes, and has its node at the centroid by default") {
   const Mesh mesh = test::twisted_block();
   InterfaceRequest request = test::interface("a", "x0", Tie::rigid);
   request.rotation = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0, 2, 1).normalized()).toRotationMatrix();
@@ -65,7 +65,7 @@ TEST_CASE("A rigid interface carries its surface, in its own axes, and by defaul
   }
 }
 
-TEST_CASE("A free interface makes a node of every node") {
+TEST_CASE("A free interface has a node for each node of the mesh") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 1, 1}});
   const Ties ties = make_ties(test::steel_solid(mesh), {test::interface("foot", "x0", Tie::free)});
   REQUIRE(ties.interfaces.size() == 9);
@@ -76,7 +76,7 @@ TEST_CASE("A free interface makes a node of every node") {
   CHECK(ties.interfaces[3].kept == std::array<bool, 6>{true, true, true, false, false, false});
 }
 
-TEST_CASE("Interfaces that cannot be are refused with their key") {
+TEST_CASE("Impossible interfaces are refused with their key") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
   const Solid solid = test::steel_solid(mesh);
   const auto a = test::interface("a", "x0", Tie::rigid);

@@ -31,7 +31,7 @@ inline SymmetricMatrix shifted(SymmetricMatrix a, double shift) {
   return a;
 }
 
-/// Springs in a row with nothing at either end, and masses on ground next to them: the row can move as a whole.
+/// Returns springs in a row with free ends, which can move as a whole, and separate masses on springs to the ground.
 inline SymmetricMatrix floating_row(int springs, int held) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(springs + 1 + held, springs + 1 + held);
   a.topLeftCorner(springs + 1, springs + 1).setZero();
@@ -39,14 +39,14 @@ inline SymmetricMatrix floating_row(int springs, int held) {
   return sparse_lower(a);
 }
 
-/// From chains to solids, all of them small enough for a dense factor.
+/// Numbers of points of grids, from chains to solids, all of them small enough for a dense factor.
 inline const std::vector<std::array<int, 3>> factor_grids{{700, 1, 1}, {25, 24, 1}, {9, 8, 8}, {2, 2, 2}};
 
 inline void check_solutions(const FactorKind& kind) {
   for (const auto& n : factor_grids) {
     const SymmetricMatrix a = grid_laplacian(n);
     const Eigen::MatrixXd exact = Eigen::MatrixXd::Random(a.size, 40), b = a.multiply(exact);
-    // The condition of a chain of 700 is 2e5; of the others it is below 1000.
+    // The condition number of a chain of 700 is 2e5, and that of the others is below 1000.
     const double tolerance = n[0] == 700 ? 1e-9 : 1e-12;
     std::vector<Eigen::MatrixXd> with_threads;
     for (const int threads : {1, 2}) {
@@ -83,7 +83,7 @@ inline void check_statistics(const FactorKind& kind) {
     const FactorStatistics& statistics = factor->statistics();
     CHECK(statistics.unknowns == a.size);
     CHECK(factor->size() == a.size);
-    CHECK(statistics.nonzeros >= static_cast<std::int64_t>(a.values.size()));  // the pattern of A is in that of L
+    CHECK(statistics.nonzeros >= static_cast<std::int64_t>(a.values.size()));  // the pattern of L contains that of A
     CHECK(statistics.nonzeros <= a.size * (a.size + 1));
     CHECK(statistics.flops > 0);
     CHECK(statistics.estimated_MB >= 0);
@@ -93,7 +93,7 @@ inline void check_statistics(const FactorKind& kind) {
   }
 }
 
-/// Two factors are used at the same time, in turns, each with its own matrix.
+/// Checks that two factors of different matrices can be used alternately.
 inline void check_two_at_a_time(const FactorKind& kind) {
   CAPTURE(kind.name);
   const SymmetricMatrix a = grid_laplacian({6, 5, 4}), b = shifted(grid_laplacian({9, 7, 1}), -0.5);
@@ -105,7 +105,7 @@ inline void check_two_at_a_time(const FactorKind& kind) {
   }
 }
 
-/// Returns the message with which a matrix is refused; empty if it is not.
+/// Returns the message with which a matrix is refused, or an empty one.
 inline std::string refusal(const FactorKind& kind, const SymmetricMatrix& a, int threads) {
   try {
     kind.make(a, threads);
@@ -144,7 +144,7 @@ inline std::vector<double> grid_eigenvalues(const std::array<int, 3>& n) {
   return values;
 }
 
-/// Returns a shift in the widest gap among some eigenvalues, and how many lie below it.
+/// Returns a shift in the widest gap between some eigenvalues, and the number of eigenvalues below it.
 inline std::pair<double, std::int64_t> shift_in_gap(const std::vector<double>& exact, double part) {
   const auto from = static_cast<std::size_t>(part * static_cast<double>(exact.size() - 1));
   std::size_t at = from;
@@ -154,7 +154,7 @@ inline std::pair<double, std::int64_t> shift_in_gap(const std::vector<double>& e
   return {shift, static_cast<std::int64_t>(at) + 1};
 }
 
-constexpr double sound_growth = 1e6;  // below which a count is trusted (reduction/missed_modes.cpp)
+constexpr double sound_growth = 1e6;  // limit of a reliable count (reduction/missed_modes.cpp)
 
 inline void check_signs(const FactorKind& kind) {
   if (!kind.counts_signs) {
@@ -170,7 +170,7 @@ inline void check_signs(const FactorKind& kind) {
     CHECK(definite.negative == 0);
     CHECK(definite.growth < sound_growth);
     for (const double part : {0.0, 0.001, 0.03, 0.3, 1.0}) {
-      if (n[0] == 2 && part > 0.01 && part < 1) continue;  // the shift would be its diagonal entry
+      if (n[0] == 2 && part > 0.01 && part < 1) continue;  // the shift would equal its diagonal entry
       const auto [shift, below] = shift_in_gap(exact, part);
       CAPTURE(n, part, shift);
       const PivotSigns signs = *factor->count_signs(shifted(a, shift), scale);
@@ -181,8 +181,8 @@ inline void check_signs(const FactorKind& kind) {
   CHECK(kind.make(one_unknown(1), 1)->count_signs(one_unknown(-3), {1.0})->negative == 1);
 }
 
-/// A chain that a condition holds at its middle as well is two chains of half the length, each eigenvalue twice. The
-/// condition's multiplier adds a negative eigenvalue.
+/// A condition holds the chain at its middle, which makes two chains of half the length and doubles each eigenvalue.
+/// The multiplier of the condition adds a negative eigenvalue.
 inline void check_signs_with_a_border(const FactorKind& kind) {
   if (!kind.counts_signs) return;
   const int n = 601;

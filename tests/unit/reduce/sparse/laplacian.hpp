@@ -1,4 +1,4 @@
-// Discrete Laplacians, whose eigenvalues are known in closed form.
+// Discrete Laplacians. Their eigenvalues are known in closed form.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace bielle::test {
 
-/// Returns the second differences on a grid of n[0] x n[1] x n[2] points, zero outside: eigenvalues sum_d 4 sin^2(k_d
-/// pi / (2 (n_d + 1))), k_d = 1 .. n_d.
+/// Returns the second differences on a grid of n[0] x n[1] x n[2] points with zeros outside. The eigenvalues are sum_d
+/// 4 sin^2(k_d pi / (2 (n_d + 1))), k_d = 1 .. n_d.
 inline SymmetricMatrix grid_laplacian(std::array<int, 3> n) {
   SymmetricMatrix a;
   a.size = std::int64_t{n[0]} * n[1] * n[2];

@@ -6,7 +6,7 @@
 
 using namespace bielle;
 
-TEST_CASE("Every factor does what `Factor` promises", "[factor]") {
+TEST_CASE("Every factor passes the checks of `Factor`", "[factor]") {
   const test::FactorKind cholmod{"CHOLMOD", [](const SymmetricMatrix& a, int threads) {
                                    return std::make_unique<SymmetricFactor>(a, std::vector<std::int64_t>(), threads);
                                  }};
@@ -14,7 +14,7 @@ TEST_CASE("Every factor does what `Factor` promises", "[factor]") {
   test::check_all(GENERATE_COPY(cholmod, dense));
 }
 
-TEST_CASE("A dense factor refuses numbers that are none, and names the unknown that shows what is wrong", "[factor]") {
+TEST_CASE("A dense factor refuses NaN, and names the unknown at which a matrix is singular", "[factor]") {
   SymmetricMatrix a = test::grid_laplacian({5, 4, 3});
   a.values[static_cast<std::size_t>(a.starts[30]) + 1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(DenseFactor(a), NotPositiveDefinite);
@@ -22,12 +22,12 @@ TEST_CASE("A dense factor refuses numbers that are none, and names the unknown t
     DenseFactor(test::floating_row(40, 5));
     FAIL("accepted");
   } catch (const NotPositiveDefinite& error) {
-    CHECK(error.unknown() == 40);  // the last of the row, where nothing is left of its stiffness
+    CHECK(error.unknown() == 40);  // the last unknown of the row, where no stiffness remains
   }
 }
 
-TEST_CASE("A dense factor counts where a pivot without interchanges vanishes", "[factor]") {
-  // Eigenvalues -1 and 1 above a zero diagonal, and a chain whose diagonal the shift takes away.
+TEST_CASE("A dense factor counts negative pivots even if a pivot is zero without interchanges", "[factor]") {
+  // One matrix has a zero diagonal and the eigenvalues -1 and 1; the shift makes the diagonal of a chain zero.
   const DenseFactor pair(sparse_lower(Eigen::MatrixXd::Identity(2, 2)));
   Eigen::MatrixXd swapped = Eigen::MatrixXd::Zero(2, 2);
   swapped(0, 1) = swapped(1, 0) = 1;

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// From narrow trees to wide ones.
+// Returns matrices with narrow to wide elimination trees.
 const std::vector<std::array<int, 3>> grids{{3000, 1, 1}, {90, 70, 1}, {18, 17, 16}, {2, 2, 2}};
 
 std::vector<double> eigenvalues_of(const std::array<int, 3>& n) {
@@ -37,14 +37,14 @@ SymmetricMatrix shifted(SymmetricMatrix a, double shift) {
 
 }  // namespace
 
-TEST_CASE("pivot signs: the negative pivots are as many as the eigenvalues below a shift", "[spectral]") {
+TEST_CASE("pivot signs: the number of negative pivots is that of the eigenvalues below a shift", "[spectral]") {
   for (const auto& n : grids) {
     const SymmetricMatrix a = test::grid_laplacian(n);
     const std::vector<double> exact = eigenvalues_of(n);
     const std::vector<double> scale(static_cast<std::size_t>(a.size), a.values[0]);
     const SymmetricFactor factor(a);
     for (const double part : {0.0, 0.001, 0.03, 1.0}) {
-      // In the widest gap nearby.
+      // The shift is in the widest gap nearby.
       const auto from = static_cast<std::size_t>(part * static_cast<double>(exact.size() - 1));
       std::size_t at = from;
       for (std::size_t k = from; k < std::min(from + 40, exact.size() - 1); ++k)
@@ -57,11 +57,11 @@ TEST_CASE("pivot signs: the negative pivots are as many as the eigenvalues below
     }
     const PivotSigns definite = *factor.count_signs(a, scale);
     CHECK(definite.negative == 0);
-    CHECK(definite.growth <= 1 + 1e-14);  // sum of L_ij^2 D_jj over j is the diagonal entry
+    CHECK(definite.growth <= 1 + 1e-14);  // the sum of L_ij^2 D_jj over j is the diagonal entry
   }
 }
 
-TEST_CASE("pivot signs: pivots that vanish show as growth", "[spectral]") {
+TEST_CASE("pivot signs: zero pivots cause growth", "[spectral]") {
   const SymmetricMatrix chain = test::grid_laplacian({300, 1, 1});
   const SymmetricFactor factor(chain);
   const std::vector<double> scale(300, 2.0);
@@ -69,22 +69,22 @@ TEST_CASE("pivot signs: pivots that vanish show as growth", "[spectral]") {
   CHECK(factor.count_signs(shifted(chain, 0.3), scale)->growth < 1e6);
 }
 
-TEST_CASE("pivot signs: both of a pair of modes are counted, of two tuning forks on one base", "[spectral]") {
-  // Two equal chains that hang together by a spring of 1e-9, masses 1/2: a search may take a pair for one mode.
+TEST_CASE("pivot signs: both modes of a pair are counted, as of two tuning forks on one base", "[spectral]") {
+  // Two equal chains with masses 1/2 are connected by a spring of 1e-9; an eigensolver may take a pair for one mode.
   VectorXd springs = VectorXd::Ones(401);
   springs(200) = 1e-9;
   const SymmetricMatrix chain = sparse_lower(test::chain_of_springs(springs));
   const SymmetricFactor factor(chain);
   for (int pair = 1; pair < 12; ++pair) {
-    // One chain of 200 masses, held at one end: 4 sin^2((2 k - 1) pi / (2 (2 n + 1))).
+    // A chain of 200 masses that is held at one end has the eigenvalues 4 sin^2((2 k - 1) pi / (2 (2 n + 1))).
     const auto alone = [](int k) { return 4 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2 * 401)), 2); };
     const double shift = (alone(pair) + alone(pair + 1)) / 2;
     CHECK(factor.count_signs(shifted(chain, shift), std::vector<double>(400, 2.0))->negative == 2 * pair);
   }
 }
 
-TEST_CASE("pivot signs: conditions at the border add a negative pivot each and take eigenvalues away", "[spectral]") {
-  // A chain held at its middle by a condition as well: two chains of half the length, each eigenvalue twice.
+TEST_CASE("pivot signs: each condition at the border adds a negative pivot and removes eigenvalues", "[spectral]") {
+  // A condition holds the chain at its middle, which makes two chains of half the length and doubles each eigenvalue.
   const int n = 801;
   const SymmetricMatrix chain = test::grid_laplacian({n, 1, 1});
   const SymmetricFactor factor(chain);
@@ -96,7 +96,7 @@ TEST_CASE("pivot signs: conditions at the border add a negative pivot each and t
   }
 }
 
-TEST_CASE("pivot signs: a pivot of exactly zero, and a matrix of one unknown", "[spectral]") {
+TEST_CASE("pivot signs: an exact zero as pivot, and a matrix of one unknown", "[spectral]") {
   const std::vector<double> scale(2, 1.0);
   const SymmetricFactor pair(sparse_lower(MatrixXd::Identity(2, 2))), one(sparse_lower(MatrixXd::Identity(1, 1)));
   MatrixXd swapped = MatrixXd::Zero(2, 2);

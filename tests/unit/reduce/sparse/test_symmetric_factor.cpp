@@ -22,12 +22,12 @@
 
 using namespace bielle;
 
-TEST_CASE("Solutions with a factorised matrix leave residuals at rounding level") {
+TEST_CASE("Solutions with a factorised matrix have residuals of the size of rounding") {
   const SymmetricMatrix a = test::grid_laplacian({17, 13, 11});
   const SymmetricFactor factor(a, {}, 2);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(a.size, 5);
   const Eigen::MatrixXd x = factor.solve(b);
-  // Backward stable: |A x - b| <= c n eps |A||x| with |A| = 12 and |x| of the order of 10 |b|.
+  // A backward stable solution has |A x - b| <= c n eps |A||x|, with |A| = 12 and |x| of the order of 10 |b|.
   CHECK((Eigen::MatrixXd(a.multiply(x)) - b).norm() < 1e-12 * b.norm());
   for (Eigen::Index k = 0; k < b.cols(); ++k) {
     CHECK((factor.solve(b.col(k)) - x.col(k)).norm() < 1e-13 * x.col(k).norm());
@@ -39,8 +39,8 @@ TEST_CASE("Solutions with a factorised matrix leave residuals at rounding level"
 
 namespace {
 
-/// Returns the largest |A x - b| over |A| |x| + |b|, |A| <= 12: of the order of eps, what a backward stable solution
-/// leaves.
+/// Returns the largest |A x - b| relative to |A| |x| + |b| with |A| <= 12, which a backward stable solution makes of
+/// the order of eps.
 double residual(const SymmetricMatrix& a, const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) {
   return (Eigen::MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() /
          (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
@@ -49,7 +49,7 @@ double residual(const SymmetricMatrix& a, const Eigen::MatrixXd& x, const Eigen:
 }  // namespace
 
 TEST_CASE("A factor solves any shape of matrix, with any number of columns and of threads", "[spectral]") {
-  // From chains, whose elimination trees are narrow, to solids, with wide supernodes at the top.
+  // The matrices range from chains with narrow elimination trees to solids with wide supernodes at the root.
   for (const auto& n : {std::array{3000, 1, 1}, {60, 50, 1}, {17, 16, 15}, {2, 2, 2}, {1, 1, 1}}) {
     SymmetricMatrix a = test::grid_laplacian(n);
     if (a.size == 1) a.values[0] = 3;
@@ -83,7 +83,7 @@ TEST_CASE("A matrix of several independent parts is factorised", "[spectral]") {
   CHECK(residual(a, SymmetricFactor(a, {}, 2).solve(b), b) < 1e-14);
 }
 
-TEST_CASE("Several threads may ask one factor for solutions", "[spectral]") {
+TEST_CASE("Several threads may use one factor at the same time", "[spectral]") {
   const SymmetricMatrix a = test::grid_laplacian({20, 19, 18});
   const SymmetricFactor factor(a, {}, 2);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(a.size, 8), x = factor.solve(b);
@@ -94,7 +94,7 @@ TEST_CASE("Several threads may ask one factor for solutions", "[spectral]") {
   CHECK(inside[1] == x);
 }
 
-TEST_CASE("A structure that holds the pattern of a matrix serves for it", "[spectral]") {
+TEST_CASE("A structure can be used for any matrix whose pattern it contains", "[spectral]") {
   const SymmetricMatrix whole = test::grid_laplacian({12, 11, 10});
   std::vector<std::int64_t> kept;
   for (std::int64_t k = 0; k < whole.size; ++k)
@@ -142,14 +142,14 @@ TEST_CASE("An indefinite matrix with a positive diagonal is refused", "[spectral
   }
 }
 
-TEST_CASE("Numbers that are none are refused", "[spectral]") {
+TEST_CASE("NaN is refused", "[spectral]") {
   SymmetricMatrix a = test::grid_laplacian({9, 8, 7});
   a.values[static_cast<std::size_t>(a.starts[100]) + 1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(SymmetricFactor(a, {}, 2), NotPositiveDefinite);
 }
 
-TEST_CASE("An order found on blocks of unknowns gives the same solution") {
-  // Three unknowns per grid point, coupled through a full 3x3 matrix.
+TEST_CASE("An elimination order found on blocks of unknowns gives the same solution") {
+  // Each grid point has three unknowns, which a full 3x3 matrix couples.
   const SymmetricMatrix grid = test::grid_laplacian({9, 8, 7});
   const Eigen::Matrix3d coupling = (Eigen::Matrix3d() << 4, 1, 0.5, 1, 3, -1, 0.5, -1, 5).finished();
   SymmetricMatrix a;
@@ -181,7 +181,7 @@ TEST_CASE("A small dense matrix is solved as by Eigen") {
   CHECK((factor.solve(Eigen::MatrixXd::Identity(7, 7)) - a.inverse()).norm() < 1e-13 * a.inverse().norm());
 }
 
-TEST_CASE("A matrix that is not positive definite is refused with the unknown where it shows") {
+TEST_CASE("A matrix that is not positive definite is refused with the unknown of the wrong pivot") {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(6, 6);
   a(4, 4) = -1;
   try {
@@ -192,12 +192,12 @@ TEST_CASE("A matrix that is not positive definite is refused with the unknown wh
   }
 }
 
-TEST_CASE("A floating chain of springs is singular to working precision and refused") {
+TEST_CASE("A free chain of springs is singular to working precision and refused") {
   const int n = 50;
   Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   for (int i = 0; i + 1 < 2 * n; ++i) {
     if (i + 1 == n) {
-      continue;  // two chains: the second holds on to nothing
+      continue;  // two chains, of which the second one is free
     }
     chain.block<2, 2>(i, i) += (Eigen::Matrix2d() << 1, -1, -1, 1).finished() * 0.7;
   }
@@ -210,16 +210,16 @@ TEST_CASE("A floating chain of springs is singular to working precision and refu
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // it takes more address space than any limit
-TEST_CASE("A factor that will not fit is refused before it is computed, with the estimate") {
+#ifndef __SANITIZE_ADDRESS__  // sanitizers use more address space than any limit
+TEST_CASE("A factor that does not fit in memory is refused before it is computed, with the estimate") {
   const SymmetricMatrix a = test::grid_laplacian({30, 30, 30});
   const FactorStatistics whole = SymmetricFactor(a).statistics();
-  CHECK(whole.estimated_MB >= whole.memory_MB());  // padding, indices and the update matrix come on top
+  CHECK(whole.estimated_MB >= whole.memory_MB());  // the estimate includes padding, indices and the update matrix
   CHECK(whole.estimated_MB < 2.5 * whole.memory_MB());
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
-  // Free memory at the end of the heap would be returned to the system during the analysis of the factor, and more
-  // would then be available than the limit allows now.
+  // Free memory at the end of the heap would be returned to the system during the analysis of the factor; then more
+  // memory would be available than the limit allows now.
   malloc_trim(0);
   // Lowers the limit until less remains than the factor needs, but enough for its symbolic analysis.
   const double wanted = 0.9 * whole.estimated_MB;
@@ -240,7 +240,7 @@ TEST_CASE("A factor that will not fit is refused before it is computed, with the
 }
 #endif
 
-TEST_CASE("The BLAS says what it is") {
+TEST_CASE("The BLAS library is identified") {
   CHECK_THAT(blas_description(), Catch::Contains("OpenBLAS"));
   CHECK_THAT(blas_description(), Catch::Contains("kernels for"));
 }

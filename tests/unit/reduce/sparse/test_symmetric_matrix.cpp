@@ -27,19 +27,20 @@ Eigen::MatrixXd dense(const SymmetricMatrix& a) { return a.multiply(RowMatrix::I
 
 }  // namespace
 
-TEST_CASE("A sparse symmetric matrix multiplies blocks as the dense one does, with any number of threads") {
+TEST_CASE(
+    "Products of a sparse symmetric matrix with blocks equal those of the dense one, with any number of threads") {
   const Eigen::MatrixXd a = random_sparse(20);
   const SymmetricMatrix sparse = sparse_lower(a);
   for (int columns = 0; columns <= 26; ++columns) {
     const RowMatrix x = RowMatrix::Random(20, columns);
-    // Sums of 20 products of numbers of order one.
+    // The products are sums of 20 products of numbers of order one.
     CHECK((sparse.multiply(x) - a * x).norm() < 1e-13);
     CHECK(sparse.multiply(x, 3) == sparse.multiply(x, 1));
   }
   CHECK(sparse.diagonal() == a.diagonal());
 }
 
-TEST_CASE("Blocks of three rows and columns, whole or with a number missing, multiply as the dense matrix does") {
+TEST_CASE("Products of complete and incomplete 3 x 3 blocks equal those of the dense matrix") {
   Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(24, 24);
   const Eigen::MatrixXd pattern = random_sparse(8), numbers = Eigen::MatrixXd::Random(24, 24);
   for (int i = 0; i < 8; ++i)
@@ -56,7 +57,7 @@ TEST_CASE("Blocks of three rows and columns, whole or with a number missing, mul
   }
 }
 
-TEST_CASE("Parts of a sparse matrix and dense borders come out as with dense matrices") {
+TEST_CASE("Submatrices of a sparse matrix, and dense borders, equal those of dense matrices") {
   const Eigen::MatrixXd a = random_sparse(9);
   const SymmetricMatrix sparse = sparse_lower(a);
   const std::array<std::int64_t, 4> kept{1, 2, 5, 8};

@@ -1,4 +1,4 @@
-// Small pencils K - lambda M given by dense matrices, and their eigenvalues by a dense solver.
+// Small pencils K - lambda M of dense matrices, and their eigenvalues by a dense solver.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -19,7 +19,7 @@ struct DensePencil {
             [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(M * x); }};
   }
 
-  /// Returns all finite eigenvalues, ascending: M y = nu (K - shift M) y, lambda = shift + 1/nu.
+  /// Returns all finite eigenvalues in ascending order, from M y = nu (K - shift M) y with lambda = shift + 1/nu.
   Eigen::VectorXd values() const {
     const Eigen::VectorXd nu = symmetric_eigenpairs(M, K - shift * M)->values.reverse();
     const Eigen::Index finite = (nu.array() > 1e-12 * nu(0)).count();
@@ -40,7 +40,7 @@ struct DensePencil {
   }
 };
 
-/// Returns a matrix with these eigenvalues and arbitrary eigenvectors.
+/// Returns a matrix with given eigenvalues and arbitrary eigenvectors.
 inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
   const Eigen::MatrixXd any = StartVectors(values.size()).draw(values.size());
   const Eigen::MatrixXd Q = symmetric_eigenpairs(any + any.transpose()).vectors;
@@ -48,7 +48,7 @@ inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
   return (A + A.transpose()) / 2;
 }
 
-/// Returns the masses of a chain between walls, `springs.size() - 1` of them: the stiffness.
+/// Returns the stiffness of a chain of `springs.size() - 1` masses between walls.
 inline Eigen::MatrixXd chain_of_springs(const Eigen::VectorXd& springs) {
   const Eigen::Index n = springs.size() - 1;
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);

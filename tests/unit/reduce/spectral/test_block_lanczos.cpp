@@ -33,7 +33,7 @@ EigenpairOptions by_arpack() {
   return options;
 }
 
-/// Uses the block method alone for any size and returns its values in order.
+/// Returns eigenvalues by the block method, for problems of any size, in ascending order.
 VectorXd block_values(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
   VectorXd values = block_lanczos_eigenpairs(problem, count, options).values;
   std::sort(values.begin(), values.end());
@@ -45,13 +45,13 @@ double difference(const VectorXd& a, const VectorXd& b) {
   return (a.array() / b.array() - 1).abs().maxCoeff();
 }
 
-/// Those of the dense solver are off by a few eps of the largest nu, which is 1 / (least eigenvalue).
+/// Returns the relative error of the dense solver, a few eps of the largest nu, which is 1 / (least eigenvalue).
 double dense_rounding(const VectorXd& values) { return 1e-14 * values(values.size() - 1) / values(0); }
 
 }  // namespace
 
-TEST_CASE("block Lanczos: multiplicities up to the block, at it and above it", "[spectral]") {
-  // A cube: eigenvalues up to six times, by closed form.
+TEST_CASE("block Lanczos: multiplicities below, at and above the size of the block", "[spectral]") {
+  // The eigenvalues of a cube are known in closed form and have multiplicities up to six.
   const SymmetricFactor factor(test::grid_laplacian({12, 12, 12}));
   const ShiftInvertProblem problem{factor.size(), 0, [&](const MatrixXd& b) { return factor.solve(b); },
                                    [](const MatrixXd& x) { return x; }};
@@ -68,7 +68,7 @@ TEST_CASE("block Lanczos: multiplicities up to the block, at it and above it", "
   }
 }
 
-TEST_CASE("block Lanczos: eigenvalues with far more copies than the block has columns", "[spectral]") {
+TEST_CASE("block Lanczos: multiplicities far above the number of columns of the block", "[spectral]") {
   VectorXd values(200);
   values << VectorXd::Constant(40, 2.0), VectorXd::LinSpaced(160, 3, 400);
   const DensePencil pencil{test::with_eigenvalues(values), MatrixXd::Identity(200, 200)};
@@ -78,8 +78,8 @@ TEST_CASE("block Lanczos: eigenvalues with far more copies than the block has co
   }
 }
 
-TEST_CASE("block Lanczos: spaces that end early are left for others", "[spectral]") {
-  // Three eigenvalues alone: any block spans an invariant space after three steps.
+TEST_CASE("block Lanczos: an exhausted Krylov space is replaced by a new one", "[spectral]") {
+  // There are only three eigenvalues, so that any block spans an invariant space after three steps.
   VectorXd values(90);
   values << VectorXd::Constant(20, 1.0), VectorXd::Constant(30, 5.0), VectorXd::Constant(40, 25.0);
   const DensePencil pencil{test::with_eigenvalues(values), MatrixXd::Identity(90, 90)};
@@ -92,7 +92,7 @@ TEST_CASE("block Lanczos: spaces that end early are left for others", "[spectral
 }
 
 TEST_CASE("block Lanczos: two tuning forks on one base", "[spectral]") {
-  // Two equal chains that hang together by a spring of 1e-9: pairs of frequencies that are nearly equal.
+  // Two equal chains are connected by a spring of 1e-9, which makes pairs of nearly equal frequencies.
   VectorXd springs = VectorXd::Ones(401);
   springs(200) = 1e-9;
   const DensePencil pencil{test::chain_of_springs(springs), 0.5 * MatrixXd::Identity(400, 400)};
@@ -107,8 +107,8 @@ TEST_CASE("block Lanczos: two tuning forks on one base", "[spectral]") {
   }
 }
 
-TEST_CASE("block Lanczos: a ring that floats", "[spectral]") {
-  // 4 sin^2(pi k / n), each twice but for k = 0, seen from a shift below zero.
+TEST_CASE("block Lanczos: a free ring", "[spectral]") {
+  // The eigenvalues are 4 sin^2(pi k / n), double except for k = 0; the shift is below zero.
   const Index n = 300;
   MatrixXd K = test::chain_of_springs(VectorXd::Ones(n + 1));
   K(0, n - 1) = K(n - 1, 0) = -1;
@@ -117,12 +117,12 @@ TEST_CASE("block Lanczos: a ring that floats", "[spectral]") {
   REQUIRE(pairs.values.size() == 21);
   for (Index k = 0; k < 21; ++k) {
     const double exact = 4 * std::pow(std::sin(std::numbers::pi * static_cast<double>((k + 1) / 2) / n), 2);
-    CHECK_THAT(pairs.values(k), Catch::WithinAbs(exact, 1e-14 + 1e-12 * exact));  // K is known to eps |K|
+    CHECK_THAT(pairs.values(k), Catch::WithinAbs(exact, 1e-14 + 1e-12 * exact));  // K has errors of eps |K|
   }
   CHECK(pencil.orthogonality(pairs) < 1e-11);
 }
 
-TEST_CASE("block Lanczos: springs a million times as stiff as others", "[spectral]") {
+TEST_CASE("block Lanczos: springs a million times stiffer than others", "[spectral]") {
   VectorXd springs(501);
   for (Index k = 0; k < springs.size(); ++k) springs(k) = (k / 50) % 2 == 0 ? 1 : 1e6;
   VectorXd masses = VectorXd::LinSpaced(500, 1, 3);
@@ -134,8 +134,8 @@ TEST_CASE("block Lanczos: springs a million times as stiff as others", "[spectra
   CHECK(pairs.residuals.maxCoeff() < 1e-9);
 }
 
-TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
-  // Two of three degrees of freedom have no mass: 50 eigenvalues in 150 degrees of freedom.
+TEST_CASE("block Lanczos: a singular mass matrix", "[spectral]") {
+  // Two of three degrees of freedom have no mass, so that 150 degrees of freedom have 50 eigenvalues.
   MatrixXd K = test::with_eigenvalues(VectorXd::LinSpaced(150, 1, 60));
   VectorXd masses = VectorXd::Zero(150);
   for (Index k = 0; k < 50; ++k) masses(3 * k) = 1 + 0.1 * static_cast<double>(k);
@@ -154,7 +154,7 @@ TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
     CHECK(chosen.method == (count < 50 ? "ARPACK" : "block Lanczos"));
   }
   CHECK_THROWS_WITH(shift_invert_eigenpairs(pencil.problem(), 50, by_arpack()), Catch::Contains("block_lanczos"));
-  // More eigenvalues are requested than exist: all are found.
+  // All eigenvalues are found if more are requested than exist.
   CHECK(difference(block_values(pencil.problem(), 70, with_block(8)), exact) < 1e-10);
   CHECK(
       block_values({150, 0, pencil.problem().solve, [](const MatrixXd& x) { return MatrixXd(0 * x); }}, 3, {}).size() ==
@@ -173,9 +173,9 @@ TEST_CASE("block Lanczos: problems smaller than a block, and all of their eigenv
   }
 }
 
-TEST_CASE("block Lanczos: restarts change nothing", "[spectral]") {
+TEST_CASE("block Lanczos: restarts do not change the result", "[spectral]") {
   VectorXd springs = VectorXd::LinSpaced(401, 1, 2);
-  // From a distant shift all eigenvalues appear alike.
+  // A distant shift makes all eigenvalues nu similar.
   const DensePencil pencil{test::chain_of_springs(springs), MatrixXd::Identity(400, 400), -2};
   const VectorXd exact = pencil.values().head(12);
   for (const int block : {1, 3, 8}) {
@@ -187,7 +187,7 @@ TEST_CASE("block Lanczos: restarts change nothing", "[spectral]") {
   }
 }
 
-TEST_CASE("block Lanczos: wide blocks need few readings of the factor", "[spectral]") {
+TEST_CASE("block Lanczos: wide blocks need few passes over the factor", "[spectral]") {
   const SymmetricFactor factor(test::grid_laplacian({20, 19, 18}));
   int sweeps = 0, columns = 0, told = 0;
   const ShiftInvertProblem problem{factor.size(), 0,
@@ -206,7 +206,8 @@ TEST_CASE("block Lanczos: wide blocks need few readings of the factor", "[spectr
   CHECK(sweeps < 20);
 }
 
-TEST_CASE("block Lanczos: an iteration that is cut off says how far it came", "[spectral]") {
+TEST_CASE("block Lanczos: the message about an iteration without convergence tells the number of converged modes",
+          "[spectral]") {
   const DensePencil pencil{test::chain_of_springs(VectorXd::Ones(901)), MatrixXd::Identity(900, 900), -4};
   EigenpairOptions options = with_block(2, 30);
   options.restarts = 2;
@@ -215,7 +216,7 @@ TEST_CASE("block Lanczos: an iteration that is cut off says how far it came", "[
                     Catch::Contains("after 2 restarts") && Catch::Contains("of 20 modes converged"));
 }
 
-TEST_CASE("block Lanczos: several threads find the same", "[spectral]") {
+TEST_CASE("block Lanczos: several threads give the same result", "[spectral]") {
   const SymmetricFactor factor(test::grid_laplacian({30, 20, 15}));
   const ShiftInvertProblem problem{factor.size(), 0, [&](const MatrixXd& b) { return factor.solve(b); },
                                    [](const MatrixXd& x) { return x; }};

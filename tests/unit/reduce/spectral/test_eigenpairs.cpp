@@ -35,7 +35,7 @@ struct GridProblem {
     return {factor.size(), shift, [this](const Eigen::MatrixXd& b) { return factor.solve(b); },
             [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(mass * x); }};
   }
-  /// Returns all eigenvalues, ascending.
+  /// Returns all eigenvalues in ascending order.
   std::vector<double> exact() const {
     std::vector<double> values;
     for (int i = 1; i <= n[0]; ++i) {
@@ -55,7 +55,8 @@ struct GridProblem {
 void check_pairs(const GridProblem& grid, const Eigenpairs& pairs) {
   const std::vector<double> exact = grid.exact();
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-    // The factor is that of a matrix that differs from K by a few eps |K|, |K| <= 12: eigenvalues move by as much.
+    // The factor belongs to a matrix that differs from K by a few eps |K|, |K| <= 12, and eigenvalues change by as
+    // much.
     const double rounding = 10 * 12 * std::numeric_limits<double>::epsilon();
     CHECK_THAT(pairs.values(k) * grid.mass, Catch::WithinAbs(exact[k] * grid.mass, rounding + 1e-13 * exact[k]));
     CHECK(pairs.residuals(k) < 1e-8);
@@ -94,8 +95,8 @@ TEST_CASE("Every copy of a multiple eigenvalue is found") {
   }
 }
 
-TEST_CASE("Eigenvalues that are far from the shift take restarts, and none is missed") {
-  // From the shift all of them are close together: the best of a first subspace are far from converged.
+TEST_CASE("Eigenvalues far from the shift need restarts, and none is missed") {
+  // All of them are close together relative to the shift, so that the best of a first subspace have not converged.
   const GridProblem cube({11, 11, 11}, 1, -4);
   for (const EigenMethod method : both_methods) {
     const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11, by(method));
@@ -105,7 +106,7 @@ TEST_CASE("Eigenvalues that are far from the shift take restarts, and none is mi
   }
 }
 
-TEST_CASE("ARPACK that does not converge is tried once more in a space of twice the size") {
+TEST_CASE("If ARPACK does not converge, it is tried again in a space of twice the size") {
   const GridProblem cube({11, 11, 11}, 1, -4), farther({11, 11, 11}, 1, -400);
   EigenpairOptions options = by(EigenMethod::arpack);
   const Eigenpairs enough = shift_invert_eigenpairs(cube.problem(), 11, options);
@@ -119,7 +120,7 @@ TEST_CASE("ARPACK that does not converge is tried once more in a space of twice 
   CHECK_THROWS_WITH(shift_invert_eigenpairs(farther.problem(), 11, options), Catch::Contains("of 11 modes converged"));
 }
 
-TEST_CASE("The method follows the numbers of unknowns and of pairs") {
+TEST_CASE("The method is chosen by the numbers of unknowns and of pairs") {
   CHECK(sensible_method(100000, 61) == EigenMethod::arpack);
   CHECK(sensible_method(100001, 61) == EigenMethod::block_lanczos);
   CHECK(sensible_method(100000, 62) == EigenMethod::block_lanczos);
@@ -134,7 +135,7 @@ TEST_CASE("Small problems give all of their eigenvalues") {
   check_pairs(plate, pairs);
 }
 
-TEST_CASE("A negative shift, as for floating bodies, leaves the eigenvalues where they are") {
+TEST_CASE("A negative shift, which free bodies need, does not change the eigenvalues") {
   const GridProblem chain({500, 1, 1}, 1, -1e-4);
   const Eigenpairs pairs = shift_invert_eigenpairs(chain.problem(), 5);
   check_pairs(chain, pairs);
@@ -153,8 +154,8 @@ TEST_CASE("All eigenvalues below a limit are found") {
   CHECK_THROWS_AS(eigenpairs_below(search, problem, limit, 5, 20), InputError);
 }
 
-TEST_CASE("Constraints worked into the solution remove their directions from the spectrum") {
-  // A chain held at its middle as well: two chains of half the length, each eigenvalue twice.
+TEST_CASE("Constraints in the solution remove their directions from the spectrum") {
+  // A constraint at the middle of a chain makes two chains of half the length, and doubles each eigenvalue.
   const GridProblem chain({801, 1, 1});
   const Eigen::VectorXd held = Eigen::VectorXd::Unit(801, 400);
   const Eigen::VectorXd influence = chain.factor.solve(held);
@@ -173,9 +174,10 @@ TEST_CASE("Constraints worked into the solution remove their directions from the
   }
 }
 
-TEST_CASE("Vectors of one eigenvalue that an iteration leaves a little skew are made orthonormal") {
-  // On a square grid, sin(i pi x) sin(j pi y) and sin(j pi x) sin(i pi y) have the same eigenvalue, and so has each of
-  // their combinations: an iteration may return two that are not orthogonal, which no further solution changes.
+TEST_CASE("Vectors of one eigenvalue that an iteration leaves not quite orthogonal are made orthonormal") {
+  // On a square grid, sin(i pi x) sin(j pi y) and sin(j pi x) sin(i pi y) have the same eigenvalue, and so have their
+  // combinations. An iteration may return two vectors that are not orthogonal, and further solutions do not change
+  // this.
   constexpr int points = 20;
   const GridProblem square({points, points, 1}, 2.5);
   constexpr double skew = 1e-4;
@@ -202,12 +204,13 @@ TEST_CASE("Vectors of one eigenvalue that an iteration leaves a little skew are 
   for (int k = 0; k < 3; ++k) {
     CHECK(pairs.values(k) == Approx(exact[k]).epsilon(1e-12));
   }
-  // V (I - E/2) with the small off-diagonal part E of the Gram matrix leaves a part of the order of E^2.
+  // The correction V (I - E/2), with the small off-diagonal part E of the Gram matrix, leaves an error of the order of
+  // E^2.
   const Eigen::MatrixXd gram = 2.5 * pairs.vectors.transpose() * pairs.vectors;
   CHECK((gram - Eigen::MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff() < 2 * skew * skew);
 }
 
-TEST_CASE("An iteration that is cut off says how far it came") {
+TEST_CASE("The message about an iteration without convergence tells the number of converged modes") {
   const GridProblem cube({12, 12, 12});
   EigenpairOptions options = by(EigenMethod::block_lanczos);
   options.restarts = 1;

@@ -19,7 +19,7 @@ struct Checked {
   double orthogonality = 0;  // largest entry of X^T M X - I
 };
 
-/// Returns the properties of the Ritz vectors of a basis, which is used up.
+/// Returns the properties of the Ritz vectors of a basis, which is consumed.
 Checked check_ritz_vectors(const test::DensePencil& of, KrylovBasis& basis) {
   const RitzPairs ritz = basis.ritz();
   const Index old = basis.locked();
@@ -37,7 +37,7 @@ Checked check_ritz_vectors(const test::DensePencil& of, KrylovBasis& basis) {
 
 }  // namespace
 
-TEST_CASE("Krylov basis: the recurrence knows the residuals of Ritz vectors, after restarts as well", "[spectral]") {
+TEST_CASE("Krylov basis: the recurrence gives the residuals of Ritz vectors, after restarts as well", "[spectral]") {
   const test::DensePencil chain = pencil();
   const ShiftInvertProblem problem = chain.problem();
   const double largest = 1 / chain.values()(0);
@@ -61,11 +61,11 @@ TEST_CASE("Krylov basis: the recurrence knows the residuals of Ritz vectors, aft
     const Checked checked = check_ritz_vectors(chain, basis);
     CHECK((checked.residuals - ritz.residuals).cwiseAbs().maxCoeff() < 1e-13 * largest);
     CHECK(checked.orthogonality <
-          1e-11);  // blocks with a condition of up to 100 are orthonormal to eps times its square
+          1e-11);  // blocks with a condition number of up to 100 are orthonormal up to eps times its square
   }
 }
 
-TEST_CASE("Krylov basis: a new front orthogonal to what is locked finds what is left", "[spectral]") {
+TEST_CASE("Krylov basis: a new front orthogonal to the locked vectors finds the remaining eigenpairs", "[spectral]") {
   const test::DensePencil chain = pencil();
   const ShiftInvertProblem problem = chain.problem();
   KrylovBasis basis(problem, 120, 1, [](Index) {});
@@ -81,7 +81,7 @@ TEST_CASE("Krylov basis: a new front orthogonal to what is locked finds what is 
   CHECK(check_ritz_vectors(chain, basis).orthogonality < 1e-12);
 }
 
-TEST_CASE("Krylov basis: the front becomes narrower where directions end, and empty at the end", "[spectral]") {
+TEST_CASE("Krylov basis: the front becomes narrower as directions are exhausted, and finally empty", "[spectral]") {
   VectorXd values(7);
   values << 1, 1, 1, 1, 2, 2, 3;
   const test::DensePencil few{test::with_eigenvalues(values), MatrixXd::Identity(7, 7)};

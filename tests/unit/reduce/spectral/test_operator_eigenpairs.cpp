@@ -1,5 +1,5 @@
-// Eigenpairs of largest magnitude of unsymmetric operators: dense algebra and ARPACK on operators whose eigenvalues are
-// known.
+// Tests of the eigenpairs of largest magnitude of unsymmetric operators, by dense algebra and by ARPACK, on operators
+// with known eigenvalues.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Blocks [a b; -b a] and single numbers on the diagonal, coupled upwards: block triangular, far from normal.
+/// Returns a block triangular matrix, far from normal, with blocks [a b; -b a] and single numbers on its diagonal.
 MatrixXd operator_with(const std::vector<Complex>& upper, int size) {
   MatrixXd T = MatrixXd::Zero(size, size);
   int row = 0;
@@ -30,7 +30,7 @@ MatrixXd operator_with(const std::vector<Complex>& upper, int size) {
   }
   for (int k = row; k < size; ++k) T(k, k) = 0.5 / (1 + k - row);
   for (int k = 0; k + 3 < size; ++k) T(k, k + 3) = 0.2;
-  // In other coordinates, so that nothing stands on the diagonal.
+  // Other coordinates hide the eigenvalues, which are no longer on the diagonal.
   MatrixXd mirror = MatrixXd::Identity(size, size);
   const VectorXd v = VectorXd::LinSpaced(size, -1, 1.3).normalized();
   mirror -= 2 * v * v.transpose();
@@ -94,7 +94,7 @@ TEST_CASE("all copies of a multiple eigenvalue are found") {
   CHECK(copies == 9);
 }
 
-TEST_CASE("an operator on nothing has no eigenpairs") {
+TEST_CASE("an operator of dimension 0 has no eigenpairs") {
   const OperatorEigenpairs none = pairs_of<double>(MatrixXd(0, 0), 3, 300);
   CHECK(none.values.size() == 0);
   CHECK(none.all);

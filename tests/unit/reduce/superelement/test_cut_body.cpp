@@ -1,4 +1,4 @@
-// Bodies in pieces: one file for all, and the pieces joined again.
+// Tests of bodies in pieces: one file for all pieces, and their assembly.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
@@ -14,7 +14,7 @@ using namespace bielle;
 using namespace bielle::test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a cut body comes back from its file as it was") {
+TEST_CASE("a cut body is read from its file as it was written") {
   const TemporaryFolder folder;
   const CutBody body = cut_beam();
   write_cut_body(body, folder / "beam.h5");
@@ -28,7 +28,7 @@ TEST_CASE("a cut body comes back from its file as it was") {
     CHECK(read.pieces[k].stiffness == body.pieces[k].stiffness);
     CHECK(read.pieces[k].interfaces[1].name == body.pieces[k].interfaces[1].name);
     CHECK(read.pieces[k].loads.size() == body.pieces[k].loads.size());
-    // A piece in its group equals a superelement in a file of its own.
+    // A piece in its group equals a superelement in a separate file.
     const Superelement alone = read_superelement(SuperelementPlace(folder / "beam.h5", group_of_piece(k)));
     CHECK(alone.mass == body.pieces[k].mass);
   }
@@ -57,7 +57,7 @@ TEST_CASE("the points of all pieces are found with their pieces") {
   CHECK(points.at("b").point.shapes == body.pieces[2].points.at("b").shapes);
 }
 
-TEST_CASE("files of whole and of cut bodies are told apart, and faults name the piece") {
+TEST_CASE("files of whole and of cut bodies are distinguished, and messages name the piece") {
   const TemporaryFolder folder;
   CutBody body = cut_beam();
   write_superelement(body.pieces[0], folder / "whole.h5");
@@ -89,7 +89,7 @@ TEST_CASE("pieces that are joined again move as the beam that was cut") {
   CHECK(whole.modes() == 9);
   CHECK(whole.total_mass == Approx(1).epsilon(1e-12));
   CHECK(whole.centre.x() == Approx(0.5).epsilon(1e-12));
-  // 1/12 of a slender rod of mass and length 1, up to the rotary inertia of the beam's lumped points.
+  // The inertia of a slender rod of mass and length 1 is 1/12, up to the rotary inertia of the beam's lumped points.
   CHECK(whole.inertia(1, 1) == Approx(1.0 / 12).epsilon(2e-3));
   const Eigen::MatrixXd rigid = rigid_motions(whole);
   CHECK((whole.stiffness * rigid).cwiseAbs().maxCoeff() < 1e-12 * whole.stiffness.cwiseAbs().maxCoeff());
@@ -97,12 +97,13 @@ TEST_CASE("pieces that are joined again move as the beam that was cut") {
   CHECK(mass(0, 0) == Approx(1).epsilon(1e-12));
   CHECK(mass(1, 5) == Approx(0.5).epsilon(1e-12));
 
-  // The tip of the clamped beam of length 1 gives way by 1/(3 EI) and turns by 1/(2 EI): cubic elements are exact.
+  // The tip of the clamped beam of length 1 moves by 1/(3 EI) and rotates by 1/(2 EI), which cubic elements represent
+  // exactly.
   const BeamProperties beam;
   std::vector<Eigen::Index> loose;
   for (Eigen::Index k = 6; k < whole.size(); ++k) loose.push_back(k);
   const Eigen::MatrixXd compliance = bielle::regular_inverse(whole.stiffness(loose, loose)).value();
-  const Eigen::Index tip = 12;  // root, cut_1, cut_2, tip: the root is held
+  const Eigen::Index tip = 12;  // root, cut_1, cut_2, tip, of which the root is held
   CHECK(compliance(tip + 1, tip + 1) == Approx(1 / (3 * beam.EIz)).epsilon(1e-9));
   CHECK(compliance(tip + 1, tip + 5) == Approx(1 / (2 * beam.EIz)).epsilon(1e-9));
 }
@@ -110,7 +111,7 @@ TEST_CASE("pieces that are joined again move as the beam that was cut") {
 TEST_CASE("one ratio damps the first mode of all pieces together") {
   const double omega = 5;
   for (const Superelement& piece : cut_beam().pieces) {
-    // A mode v of the whole with v^T M v = 1 has v^T K v = omega^2, and v^T C v = 2 zeta omega.
+    // A mode v of the whole body with v^T M v = 1 has v^T K v = omega^2 and v^T C v = 2 zeta omega.
     const Eigen::MatrixXd damping = damping_of_piece(piece, 0.02, omega / (2 * std::acos(-1.0)));
     CHECK((damping * omega - 2 * 0.02 * piece.stiffness).norm() < 1e-14 * piece.stiffness.norm());
   }

@@ -30,7 +30,7 @@ MatrixXd symmetric(Eigen::Index n) {
   return a * a.transpose() + MatrixXd::Identity(n, n);
 }
 
-/// Returns two interfaces with 6 and 4 kept directions and 3 modes: n = 13; every part is filled.
+/// Returns a body with all parts filled: two interfaces with 6 and 4 kept directions and 3 modes, n = 13.
 Superelement sample() {
   std::srand(7);
   const Eigen::Index n = 13, m = 3, p = 5;
@@ -78,7 +78,7 @@ Superelement sample() {
   return body;
 }
 
-/// Returns the least superelement: one interface, no modes.
+/// Returns the smallest superelement, with one interface and no modes.
 Superelement smallest() {
   Superelement body;
   body.interfaces.resize(1);
@@ -166,7 +166,7 @@ TEST_CASE("A superelement is read as it was written") {
   CHECK(b.interface_directions() == 10);
 }
 
-TEST_CASE("What a superelement does not have stays empty") {
+TEST_CASE("Missing parts of a superelement are empty") {
   const TemporaryFolder folder;
   const Superelement b = read_superelement(written(folder, smallest()));
   CHECK(b.modes() == 0);
@@ -179,7 +179,7 @@ TEST_CASE("What a superelement does not have stays empty") {
   CHECK(b.mesh.points.cols() == 0);
 }
 
-TEST_CASE("The file has the layout that its description promises") {
+TEST_CASE("The file has the documented layout") {
   const TemporaryFolder folder;
   const Superelement body = sample();
   const Hdf5File file = Hdf5File::open(written(folder, body));
@@ -228,7 +228,7 @@ TEST_CASE("The origin of stress is optional, and wrong ones are refused") {
              Contains("/recovery/stress_groups/hub: names places that are not in /recovery/stress_nodes"));
 }
 
-TEST_CASE("An earlier file is replaced by a complete one only") {
+TEST_CASE("Only a complete file replaces an earlier one") {
   const TemporaryFolder folder;
   const std::string path = written(folder, sample());
   Superelement wrong = sample();
@@ -241,7 +241,7 @@ TEST_CASE("An earlier file is replaced by a complete one only") {
              Contains("cannot be created"));
 }
 
-TEST_CASE("A file that is missing, damaged or something else is refused with the reason") {
+TEST_CASE("A file that is missing, damaged or of another kind is refused with the reason") {
   const TemporaryFolder folder;
   const auto why = [](const std::string& path) { return message_of<InputError>([&] { read_superelement(path); }); };
   CHECK_THAT(why(folder / "none.h5"), Contains("none.h5: there is no such file"));
@@ -257,7 +257,7 @@ TEST_CASE("A file that is missing, damaged or something else is refused with the
   }
 }
 
-TEST_CASE("The parts for a motion are read alone if the bytes are as written, otherwise with all checks") {
+TEST_CASE("If the bytes are as written, only the parts for a motion are read; otherwise all checks are made") {
   const TemporaryFolder folder;
   const Superelement a = sample();
   const std::string path = written(folder, a);
@@ -272,7 +272,7 @@ TEST_CASE("The parts for a motion are read alone if the bytes are as written, ot
   CHECK(b.displacement_recovery.size() == 0);
   CHECK(b.mesh.points.size() == 0);
 
-  // a number of the recovery, which these parts do not contain
+  // The extension removes the sum of the bytes, so that the file is read completely, with the recovery.
   Hdf5File::open_to_extend(path).write_attribute("/", "name", a.name);
   CHECK(read_parts_of_motion(Hdf5File::open(path)).displacement_recovery == a.displacement_recovery);
   {
@@ -283,7 +283,7 @@ TEST_CASE("The parts for a motion are read alone if the bytes are as written, ot
              Contains("its numbers are not those that were written"));
 }
 
-TEST_CASE("An incomplete file or one of another version is refused with what to do") {
+TEST_CASE("An incomplete file, or one of another version, is refused with advice") {
   CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "complete", std::int64_t{0}); }),
              Contains("was never completed; run bielle-reduce again"));
   CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "version", std::int64_t{1}); }),
@@ -339,7 +339,7 @@ TEST_CASE("Points are read without the rest of the file, and wrong ones are refu
              Contains("of 3 modes, 4 cannot be residual vectors"));
 }
 
-TEST_CASE("What a run judges a body by stands in its file, which may do without") {
+TEST_CASE("The file may contain the numbers by which a run judges a body") {
   const TemporaryFolder folder;
   Superelement body = sample();
   const Superelement without = read_superelement(written(folder, body));
@@ -373,7 +373,7 @@ TEST_CASE("What a run judges a body by stands in its file, which may do without"
              Contains("/reduced/strain"));
 }
 
-TEST_CASE("What a superelement is good for stands in its file, which may do without") {
+TEST_CASE("The file may contain the judgement of a superelement") {
   const TemporaryFolder folder;
   Superelement body = sample();
   CHECK_FALSE(read_superelement(written(folder, body)).adequacy);
@@ -431,7 +431,7 @@ TEST_CASE("What a superelement is good for stands in its file, which may do with
              Contains("its numbers are not those that were written"));
 }
 
-TEST_CASE("Values that no body can have are refused") {
+TEST_CASE("Impossible values are refused") {
   const auto stiffness_with = [](Eigen::Index i, Eigen::Index j, double value) {
     return [=](Hdf5File& file) {
       MatrixXd matrix = file.read_matrix("/reduced/stiffness");

@@ -31,9 +31,9 @@ std::string text_of_size(std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("byte sum: a file with its sum is recognised, and every change of it") {
+TEST_CASE("byte sum: a file with its sum is recognised, and so is every change of it") {
   const TemporaryFolder folder;
-  // around a word, four words and a block of reading
+  // sizes next to one word, four words and one block of reading
   for (const std::size_t size : {0, 1, 7, 8, 31, 32, 33, 1000, 32767, 32768, 32769, 100000}) {
     CAPTURE(size);
     const std::string path = folder.file("whole", text_of_size(size));

@@ -52,7 +52,7 @@ std::string bytes_of(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("What is written is read back, with units and shape") {
+TEST_CASE("Datasets are read as they were written, with units and shape") {
   const TemporaryFolder folder;
   Eigen::MatrixXd matrix(2, 3);
   matrix << 1, 2, 3, 4, 5, 6;
@@ -108,7 +108,7 @@ TEST_CASE("Members of a group are listed in the order in which they were made") 
   CHECK_THROWS_AS(file.names_in("/none"), ComputationError);
 }
 
-TEST_CASE("No dataset without units, and no shape that does not fit") {
+TEST_CASE("A dataset without units, or with a shape that does not fit, is refused") {
   const TemporaryFolder folder;
   Hdf5File file = Hdf5File::create(folder / "a.h5");
   CHECK_THROWS_AS(file.write("/a", 1.0, ""), std::logic_error);
@@ -127,7 +127,7 @@ TEST_CASE("A matrix larger than one block keeps its rows and columns") {
   CHECK(file.read("/large")[1003 * 700 + 2] == matrix(700, 2));
 }
 
-TEST_CASE("Text may be longer than HDF5's limit of 64 kB for attributes") {
+TEST_CASE("Text may be longer than the 64 kB that HDF5 allows for attributes") {
   const TemporaryFolder folder;
   const std::string text(200'000, 'x');
   Hdf5File file = Hdf5File::create(folder / "a.h5");
@@ -138,7 +138,7 @@ TEST_CASE("Text may be longer than HDF5's limit of 64 kB for attributes") {
   CHECK(Hdf5File::open(folder / "a.h5").read_text_attribute("/", "note") == text);
 }
 
-TEST_CASE("Rows are appended, by the writer and by one who extends the file") {
+TEST_CASE("Rows are appended by the writer, and to a file that is opened again") {
   const TemporaryFolder folder;
   {
     Hdf5File file = Hdf5File::create(folder / "a.h5");
@@ -160,7 +160,7 @@ TEST_CASE("Rows are appended, by the writer and by one who extends the file") {
   CHECK(file.units("/time") == "s");
 }
 
-TEST_CASE("Attributes may change and links may move") {
+TEST_CASE("Attributes can be changed and links moved") {
   const TemporaryFolder folder;
   Hdf5File file = Hdf5File::create(folder / "a.h5");
   file.write_attribute("/", "complete", std::int64_t{0});
@@ -179,7 +179,7 @@ TEST_CASE("Attributes may change and links may move") {
   CHECK_FALSE(file.has("/dangling"));
 }
 
-TEST_CASE("Files that cannot be read say why") {
+TEST_CASE("The message about a file that cannot be read tells the reason") {
   const TemporaryFolder folder;
   {
     Hdf5File file = Hdf5File::create(folder / "whole.h5");
@@ -211,7 +211,7 @@ TEST_CASE("Files that cannot be read say why") {
              Contains("cannot be created"));
 }
 
-TEST_CASE("Texts with damaged lengths are told before memory is spent on them") {
+TEST_CASE("Damaged lengths of texts are noticed before memory is allocated for them") {
   const TemporaryFolder folder;
   Hdf5File::create(folder / "whole.h5").write_text("/text", "abc");
   std::string bytes = bytes_of(folder / "whole.h5");
@@ -225,7 +225,7 @@ TEST_CASE("Texts with damaged lengths are told before memory is spent on them") 
              Contains("long.h5: is damaged: a text at /text cannot be read"));
 }
 
-TEST_CASE("Pieces of rows that are shorter than they should be are told before HDF5 reads beyond them") {
+TEST_CASE("Chunks of rows that are too short are noticed before HDF5 reads beyond them") {
   const TemporaryFolder folder;
   {
     Hdf5File file = Hdf5File::create(folder / "whole.h5");
@@ -234,7 +234,7 @@ TEST_CASE("Pieces of rows that are shorter than they should be are told before H
   }
   CHECK(Hdf5File::open(folder / "whole.h5").shape("/position") == Shape{3, 6});
   std::string bytes = bytes_of(folder / "whole.h5");
-  // A node of the tree of pieces (of type 1) has a head of 24 bytes, then the size of the first piece (4 bytes).
+  // A node of the tree of chunks (of type 1) has a head of 24 bytes, then the size of the first chunk (4 bytes).
   const std::size_t node = bytes.find(std::string("TREE\x01"));
   REQUIRE(node != std::string::npos);
   REQUIRE(bytes.substr(node + 24, 4) == std::string("\xc0\0\0\0", 4));
@@ -243,7 +243,7 @@ TEST_CASE("Pieces of rows that are shorter than they should be are told before H
              Contains("short.h5: is damaged: the pieces of /position are not as large as they should be"));
 }
 
-TEST_CASE("HDF5 itself prints nothing") {
+TEST_CASE("The HDF5 library prints nothing") {
   const TemporaryFolder folder;
   const std::string log = folder / "log";
   const int status = status_of_child([&] {
@@ -258,10 +258,10 @@ TEST_CASE("HDF5 itself prints nothing") {
   CHECK(bytes_of(log).empty());
 }
 
-TEST_CASE("A file is written in the earliest format that it can have") {
+TEST_CASE("A file is written in the earliest format that can hold it") {
   const TemporaryFolder folder;
   Hdf5File::create(folder / "a.h5").write("/x", 1.0, "m");
-  // The version of the superblock, after the signature of 8 bytes: 1 tells the size of chunk indices.
+  // The version of the superblock follows the signature of 8 bytes; version 1 contains the size of chunk indices.
   CHECK(bytes_of(folder / "a.h5").at(8) == 1);
 }
 
@@ -301,7 +301,7 @@ TEST_CASE("A full disk is a failed computation, not a crash") {
   CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("An output takes its name only when it is complete") {
+TEST_CASE("An output file gets its name only when it is complete") {
   const TemporaryFolder folder;
   const std::string path = folder.file("body.h5", "earlier");
   {

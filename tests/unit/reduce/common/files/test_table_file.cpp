@@ -11,7 +11,7 @@ using bielle::read_table;
 using bielle::test::message_of;
 using Catch::Matchers::Contains;
 
-TEST_CASE("Tables are read whatever separates their numbers") {
+TEST_CASE("Tables are read with any separator of their numbers") {
   const bielle::test::TemporaryFolder folder;
   Eigen::MatrixXd expected(2, 2);
   expected << 0, 1.5, 2, -3e2;
@@ -23,7 +23,7 @@ TEST_CASE("Tables are read whatever separates their numbers") {
   }
 }
 
-TEST_CASE("A table that is wrong says where") {
+TEST_CASE("The message about a wrong table tells the line") {
   const bielle::test::TemporaryFolder folder;
   const auto why = [&](const std::string& text) {
     return message_of<bielle::InputError>([&] { read_table(folder.file("table.csv", text), 2); });

@@ -25,7 +25,7 @@ using std::numbers::pi;
 namespace test_expression {
 namespace {
 
-// A formula of a few operations may be wrong by a few roundings.
+// A formula of a few operations has an error of a few roundings.
 constexpr double rounding = 1e-15;
 
 double constant(const std::string& text, const Parameters& parameters = {}) {
@@ -80,7 +80,7 @@ TEST_CASE("Every function has its value") {
   CHECK(constant("round(2.5)") == 3);
   CHECK(constant("pow(2, 10)") == 1024);
   CHECK(constant("mod(7, 3)") == 1);
-  CHECK(constant("mod(-1, 3)") == 2);  // the sign of the divisor, as a phase needs it
+  CHECK(constant("mod(-1, 3)") == 2);  // the remainder has the sign of the divisor, as phases need it
   CHECK(constant("min(3, 1, 2)") == 1);
   CHECK(constant("max(3, 1, 2)") == 3);
   CHECK(constant("max(3)") == 3);
@@ -90,7 +90,7 @@ TEST_CASE("Every function has its value") {
   CHECK(constant("if(2 < 1, 10, 20)") == 20);
 }
 
-TEST_CASE("Step, ramp and pulse have the values and borders that they promise") {
+TEST_CASE("Step, ramp and pulse have their values and ends as documented") {
   const Expression step = of_t("step(t, 1, 3)"), ramp = of_t("ramp(t, 1, 3)"), pulse = of_t("pulse(t, 1, 3)");
   CHECK(step(0.0) == 0);
   CHECK(step(1.0) == 0);
@@ -119,7 +119,7 @@ TEST_CASE("Parameters and variables may be used by name") {
   CHECK(Expression(2.5).derivative(1.0) == 0);
 }
 
-TEST_CASE("What muParser would read silently and wrongly is refused") {
+TEST_CASE("Formulas that muParser would silently misread are refused") {
   CHECK_THAT(why_wrong("1,2"), Contains("expected one value"));
   CHECK_THAT(why_wrong("0,5*t"), Contains("a decimal point is written '.'"));
   CHECK_THAT(why_wrong("1/0"), Contains("division by zero"));
@@ -137,7 +137,7 @@ TEST_CASE("What muParser would read silently and wrongly is refused") {
   CHECK_THAT(why_wrong("nan"), Contains("unknown name 'nan'"));
 }
 
-TEST_CASE("A wrong formula is explained with the place and the nearest name") {
+TEST_CASE("The message about a wrong formula tells the place and the nearest name") {
   CHECK_THAT(why_wrong("2*spede*t", {{"speed", 1}}),
              Contains("unknown name 'spede' at character 3; did you mean 'speed'?"));
   CHECK_THAT(why_wrong("2*omega*t", {{"length", 1}, {"mass", 1}}),
@@ -168,7 +168,7 @@ TEST_CASE("A wrong formula is explained with the place and the nearest name") {
   CHECK(of_t("2*t", {{"q", 1}, {"v", 2}})(3.0) == 6);
 }
 
-TEST_CASE("A branch that is not taken may be without value") {
+TEST_CASE("A branch that is not taken may have no finite value") {
   const Parameters gap{{"gap", 0}};
   CHECK(constant("if(gap > 0, 1/gap, 7)", gap) == 7);
   CHECK(of_t("if(gap > 0, t/gap, t)", gap)(2.0) == 2);
@@ -182,14 +182,14 @@ TEST_CASE("A value that is not finite is an error that names formula and argumen
   const std::string message = message_of<ComputationError>([&] { formula(std::vector<double>{1, 2}); });
   CHECK(message == "formula '1/(t-1) + q' at t = 1, q = 2: division by zero");
   CHECK_THROWS_AS(of_t("sqrt(t)")(-1.0), ComputationError);
-  CHECK_THROWS_AS(of_t("1/(1/t)")(0.0), ComputationError);       // muParser: 0
-  CHECK_THROWS_AS(of_t("sqrt(t) > 0")(-1.0), ComputationError);  // muParser: 0
+  CHECK_THROWS_AS(of_t("1/(1/t)")(0.0), ComputationError);       // muParser returns 0
+  CHECK_THROWS_AS(of_t("sqrt(t) > 0")(-1.0), ComputationError);  // muParser returns 0
   CHECK_THROWS_AS(of_t("step(t, 1, t)")(0.5), ComputationError);
 }
 
 TEST_CASE("Derivatives are as accurate as the value") {
-  // Closed forms at a place where differences would have lost the digits: rounding of the argument 100 t alone is worth
-  // |100 t| eps = 1e-11 of the scale.
+  // The derivatives are compared with closed forms at an argument where differences would lose all digits: the rounding
+  // of the argument 100 t alone causes |100 t| eps = 1e-11 of the scale.
   const double t = 1e3, w = 100, phase_rounding = 2e-11;
   const Expression formula = of_t("sin(100*t)");
   CHECK_THAT(formula.derivative(t, 1), WithinAbs(w * std::cos(w * t), w * phase_rounding));
@@ -255,7 +255,7 @@ TEST_CASE("At a kink the derivative is the one on the right") {
   CHECK(of_t("t*floor(-t)").derivative(1.0) == -2);
   CHECK(of_t("mod(t, 1)").derivative(1.0) == 1);
   CHECK(of_t("step(t, 1, 3)").derivative(1.0, 2) == 0);
-  CHECK(of_t("abs(t^2)").derivative(0.0, 2) == 2);  // the sign on the right comes from the second derivative
+  CHECK(of_t("abs(t^2)").derivative(0.0, 2) == 2);  // the second derivative gives the sign on the right
   CHECK(of_t("t*pulse(t, 1, 2)").derivative(1.0) == 1);
   CHECK(of_t("t*pulse(t, 1, 2)").derivative(2.0) == 0);
 }
@@ -268,7 +268,7 @@ TEST_CASE("A derivative that does not exist is an error") {
              Contains("no finite second derivative"));
 }
 
-TEST_CASE("Break points are found where what is compared is linear in the argument") {
+TEST_CASE("Break points are found if both sides of a comparison are linear in the argument") {
   using Points = std::vector<double>;
   CHECK(of_t("sin(t)").break_points().empty());
   CHECK(of_t("-1e3*(t > 0.01)").break_points() == Points{0.01});
@@ -280,10 +280,10 @@ TEST_CASE("Break points are found where what is compared is linear in the argume
   CHECK(of_t("if(t > 1, step(t, 2, 3), abs(t))").break_points() == Points{0, 1, 2, 3});
   CHECK(Expression("if(q > 1, step(t, 2, 3), v)", {"q", "v", "t"}).break_points(0) == Points{1});
   CHECK(Expression("if(q > 1, step(t, 2, 3), v)", {"q", "v", "t"}).break_points(2) == Points{2, 3});
-  CHECK(Expression("if(q > t, 1, 2)", {"q", "t"}).break_points(1).empty());  // depends on both
+  CHECK(Expression("if(q > t, 1, 2)", {"q", "t"}).break_points(1).empty());  // the comparison depends on both variables
 }
 
-TEST_CASE("A formula may use tables from files relative to its folder") {
+TEST_CASE("A formula may use tables from files, relative to the folder of the formula") {
   const bielle::test::TemporaryFolder folder;
   folder.file("curve.csv", "t, value\n0, 0\n1, 2\n3, 0\n");
   const auto formula = [&](const std::string& text) { return Expression(text, {"t"}, {}, folder.path()); };
@@ -291,11 +291,11 @@ TEST_CASE("A formula may use tables from files relative to its folder") {
   CHECK(straight(0.5) == 3);
   CHECK(straight(2.0) == 3);
   CHECK(straight.derivative(0.5) == 6);
-  CHECK(straight.derivative(1.0) == -3);  // on the right
-  CHECK(straight.derivative(3.0) == -3);  // there is nothing on the right: the last piece
+  CHECK(straight.derivative(1.0) == -3);  // slope on the right
+  CHECK(straight.derivative(3.0) == -3);  // slope of the last piece, since nothing follows it
   CHECK(straight.break_points() == std::vector<double>{0, 1, 3});
   CHECK(formula("table('curve.csv', 2*t)").break_points() == std::vector<double>{0, 0.5, 1.5});
-  // Through three points: the parabola t (3 - t)
+  // The spline through three points is the parabola t (3 - t).
   CHECK_THAT(smooth(2.0), WithinAbs(2, rounding));
   CHECK_THAT(smooth.derivative(2.0), WithinAbs(-1, 4 * rounding));
   CHECK_THAT(smooth.derivative(2.0, 2), WithinAbs(-2, 4 * rounding));

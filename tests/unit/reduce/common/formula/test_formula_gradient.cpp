@@ -1,5 +1,5 @@
-// Value and gradient from one evaluation against the value and the derivatives along each argument, whose own tests are
-// in test_expression.cpp.
+// Compares value and gradient from one evaluation with the value and the derivatives along each argument, which
+// test_expression.cpp tests.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-// The two sum the same few products in another order.
+// Both evaluations sum the same few products in different orders.
 constexpr double rounding = 1e-14;
 
 /// Returns the expected gradient, or the message if there is none.
@@ -50,7 +50,7 @@ void check_gradient(const Expression& formula, const std::vector<double>& x) {
 
 const std::vector<double> borders{-3, -2, -1.5, -1, -0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
 
-/// At all pairs of a few values, which are borders of most formulas, and at some that are borders of none.
+/// The arguments are all pairs of a few values at which most formulas have kinks or ends, and some ordinary values.
 void check_gradient_everywhere(const std::string& text, const std::string& folder = ".") {
   const Expression formula(text, {"x", "y", "z"}, {{"r", 0.7}}, folder);
   for (const double x : borders)
@@ -61,7 +61,7 @@ void check_gradient_everywhere(const std::string& text, const std::string& folde
 
 }  // namespace
 
-TEST_CASE("The gradient holds the derivatives along each argument, for every operation") {
+TEST_CASE("The gradient consists of the derivatives along each argument, for every operation") {
   for (const std::string text : {"3",
                                  "r",
                                  "x",
@@ -133,7 +133,7 @@ TEST_CASE("The gradient holds the derivatives along each argument, for every ope
     check_gradient_everywhere(text);
 }
 
-TEST_CASE("At kinks the gradient is the one on the right along each argument") {
+TEST_CASE("At kinks the gradient is the right-hand one along each argument") {
   for (const std::string text : {"abs(x)*y",
                                  "abs(x - y)",
                                  "abs(x^2 - y^2)",
@@ -163,7 +163,7 @@ TEST_CASE("At kinks the gradient is the one on the right along each argument") {
   CHECK(gradient == std::vector<double>{1, -2});
 }
 
-TEST_CASE("The gradient goes through tables and splines, at their points as well") {
+TEST_CASE("The gradient of tables and splines is right, also at their points") {
   const bielle::test::TemporaryFolder folder;
   folder.file("curve.csv", "-20, 1\n-1, 2\n0, 0\n1, 2\n3, 0\n20, 1\n");
   for (const std::string text : {"table('curve.csv', x)", "y*table('curve.csv', -x)", "table('curve.csv', x*y)",
@@ -171,7 +171,7 @@ TEST_CASE("The gradient goes through tables and splines, at their points as well
     check_gradient_everywhere(text, folder.path());
 }
 
-TEST_CASE("Where there is no finite derivative the gradient is an error of the same words") {
+TEST_CASE("If there is no finite derivative, the gradient fails with the same message") {
   const Expression root("y*sqrt(x)", {"x", "y"}), hidden("cos(sqrt(x)) + y", {"x", "y"});
   std::vector<double> gradient(2);
   CHECK(message_of<ComputationError>([&] {
@@ -183,14 +183,14 @@ TEST_CASE("Where there is no finite derivative the gradient is an error of the s
   check_gradient(hidden, {0, 1});
 }
 
-TEST_CASE("A formula of many variables has its gradient in several passes") {
+TEST_CASE("The gradient of a formula of many variables is computed in several passes") {
   for (const std::size_t count : {15U, 16U, 17U, 40U}) {
     std::vector<std::string> names;
     std::vector<double> x;
     std::string text = "abs(x0)";
     for (std::size_t i = 0; i < count; ++i) {
       names.push_back(fmt::format("x{}", i));
-      x.push_back(0.1 * static_cast<double>(i));  // the first one at a kink
+      x.push_back(0.1 * static_cast<double>(i));  // the first argument is at a kink
       text += fmt::format(" + x{}^2*x{}", i, count - 1 - i);
     }
     check_gradient(Expression(text, names), x);

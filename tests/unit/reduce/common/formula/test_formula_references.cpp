@@ -63,7 +63,7 @@ TEST_CASE("Names of other characters are quoted") {
   CHECK(only("'1'.x").identifier == "_1__x");
 }
 
-TEST_CASE("Functions of names are references") {
+TEST_CASE("Functions of names of entries are references") {
   const FormulaReference distance = only("t - distance(a, 'node 2')/2");
   CHECK(distance.function == "distance");
   CHECK(distance.subjects == Names{"a", "node 2"});
@@ -78,7 +78,7 @@ TEST_CASE("Functions of names are references") {
   CHECK(only("angle*angle(a, b)").function == "angle");
 }
 
-TEST_CASE("Operands of functions of formulas are texts, with their own references") {
+TEST_CASE("Formulas as operands of functions stay texts, with references of their own") {
   const auto found_with_delay = [](const std::string& text) {
     return bielle::find_references(text, {"t"}, {"angle"}, {"delay"});
   };
@@ -93,7 +93,7 @@ TEST_CASE("Operands of functions of formulas are texts, with their own reference
                     Contains("the parenthesis of 'delay' at character 5 is not closed"));
   CHECK_THROWS_WITH(found_with_delay("delay(x,)"), Contains("an operand of 'delay' at character 1 is missing"));
   CHECK_THROWS_WITH(found_with_delay("delay (x, 1)"), Contains("must be followed by '('"));
-  // Names in the operands are renamed as all others are.
+  // Names in operands are renamed like all others.
   CHECK(bielle::rename_in_formula(
             "delay(a.angle + b, T)", {"angle"},
             [](const std::string& name) -> std::optional<std::string> { return "part." + name; },
@@ -112,7 +112,7 @@ TEST_CASE("Numbers, plain names and names of files are left alone") {
   CHECK(found("table('file.csv', main.angle)").replaced == "table('file.csv', main_angle)");
 }
 
-TEST_CASE("Each reference is listed once, in the order of the formula, at its place") {
+TEST_CASE("Each reference is listed once, in the order of the formula, with its place") {
   const FormulaText formula = found("b.x*a.y + b.x^2 + distance(p,  q) - 'a'.y*distance(p, q)");
   REQUIRE(formula.references.size() == 3);
   CHECK(formula.references[0].text == "b.x");
@@ -123,7 +123,7 @@ TEST_CASE("Each reference is listed once, in the order of the formula, at its pl
   CHECK(found("angle(a, b) + distance(a, b) + angle(b, a)").references.size() == 3);
 }
 
-TEST_CASE("An identifier is no other name") {
+TEST_CASE("The identifier of a reference equals no other name") {
   CHECK(found("a.b + a_b").replaced == "a_0 + a_b");
   CHECK(found("a.b", {"a_b"}).replaced == "a_0");
   CHECK(found("'a'.b + _a__b + _a__0 + 'b'.c").replaced == "_a__1 + _a__b + _a__0 + _b__c");
@@ -139,7 +139,7 @@ TEST_CASE("An identifier is no other name") {
   CHECK(found(crowd).references[0].identifier == "a100");
 }
 
-TEST_CASE("A slip in a reference is told with its place") {
+TEST_CASE("The message about a wrong reference tells its place") {
   CHECK(why("2*main. angle") == "'main. angle' at character 3 is written without blanks at the dots");
   CHECK(why("2*main .angle") == "'main .angle' at character 3 is written without blanks at the dots");
   CHECK(why("'left arm' . angle") == "''left arm' . angle' at character 1 is written without blanks at the dots");
@@ -156,7 +156,7 @@ TEST_CASE("A slip in a reference is told with its place") {
   CHECK(why("distance (a, b)") == "the function 'distance' at character 1 must be followed by '('");
 }
 
-TEST_CASE("References are further arguments of the formula, and messages call them as the user does") {
+TEST_CASE("References are further arguments of the formula, and messages use the names of the user") {
   const FormulaText text = found("r*main.angle - t/'left arm'.angle");
   const Expression formula(text, {"t"}, {{"r", 2}});
   CHECK(formula(std::vector<double>{6, 5, 3}) == 8);

@@ -29,7 +29,7 @@ TEST_CASE("A cubic spline reproduces every cubic, whatever its points") {
     const Interpolation spline = through(x.head(n), f, Interpolation::Kind::cubic);
     for (double at = x(0); at <= x(n - 1); at += 0.05) {
       const Interpolation::Values values = spline(at);
-      // A few roundings of values up to 40, divided by the smallest interval 0.1 for each derivative.
+      // The error is a few roundings of values up to 40, divided by the smallest interval 0.1 for each derivative.
       CHECK_THAT(values.value, WithinAbs(f(at), 1e-13));
       CHECK_THAT(values.slope, WithinAbs(-1 + 6 * at - 1.5 * at * at, 1e-12));
       CHECK_THAT(values.curvature, WithinAbs(6 - 3 * at, 1e-11));
@@ -37,7 +37,7 @@ TEST_CASE("A cubic spline reproduces every cubic, whatever its points") {
   }
 }
 
-TEST_CASE("Three points give a parabola, two a straight line") {
+TEST_CASE("A spline through three points is a parabola, through two a straight line") {
   const auto square = [](double x) { return x * x; };
   const Interpolation parabola = through(Eigen::Vector3d(0, 1, 3), square, Interpolation::Kind::cubic);
   CHECK_THAT(parabola(2.0).value, WithinAbs(4, 1e-14));
@@ -70,7 +70,7 @@ TEST_CASE("A periodic spline repeats itself, and converges with fourth order to 
   const auto f = [](double x) { return std::exp(std::sin(x)); };
   std::vector<double> error;
   for (const int n : {16, 32, 64}) {
-    // Unequal intervals.
+    // The intervals are unequal.
     Eigen::VectorXd x(n + 1), y(n + 1);
     for (int k = 0; k <= n; ++k) x(k) = 2 * M_PI * (k + 0.2 * std::sin(2 * M_PI * k / n)) / n;
     for (int k = 0; k <= n; ++k) y(k) = f(x(k));
@@ -96,7 +96,7 @@ TEST_CASE("A periodic spline repeats itself, and converges with fourth order to 
   CHECK_THAT(message(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(1, 2, 1)), Catch::Contains("three points"));
 }
 
-TEST_CASE("The integral is that of the pieces, over any number of periods") {
+TEST_CASE("The integral is the sum over the pieces, over any number of periods") {
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(5, -1, 2);
   const Interpolation cubic(x, x.array().cube() - 2 * x.array().square() + 3, Interpolation::Kind::cubic, "curve");
   const auto primitive = [](double at) { return std::pow(at, 4) / 4 - 2 * std::pow(at, 3) / 3 + 3 * at; };
@@ -115,7 +115,7 @@ TEST_CASE("The integral is that of the pieces, over any number of periods") {
   }
 }
 
-TEST_CASE("Straight pieces have the slope of the side asked for") {
+TEST_CASE("The slope at a point between straight pieces is that of the requested side") {
   const Interpolation pieces(Eigen::Vector3d(0, 1, 3), Eigen::Vector3d(0, 2, 0), Interpolation::Kind::linear, "curve");
   CHECK(pieces(0.5).value == 1);
   CHECK(pieces(1.0).value == 2);
@@ -126,13 +126,13 @@ TEST_CASE("Straight pieces have the slope of the side asked for") {
   CHECK(pieces(0.5).curvature == 0);
 }
 
-TEST_CASE("A function of points is not continued beyond them") {
+TEST_CASE("A function through points is not extrapolated") {
   const Interpolation pieces(Eigen::Vector2d(0, 1), Eigen::Vector2d(0, 2), Interpolation::Kind::linear, "curve");
   CHECK_THAT(message_of<bielle::ComputationError>([&] { pieces(1.1); }),
              Contains("1.1 is outside the table 'curve', which runs from 0 to 1"));
   CHECK_THROWS_AS(pieces(-0.1), bielle::ComputationError);
   CHECK_THROWS_AS(pieces(std::nan("")), bielle::ComputationError);
-  CHECK_THAT(pieces(1 + 1e-12).value, WithinAbs(2, 1e-11));  // time that was summed up may end a rounding later
+  CHECK_THAT(pieces(1 + 1e-12).value, WithinAbs(2, 1e-11));  // a sum of time steps may exceed the end by a rounding
 }
 
 TEST_CASE("Points must be at least two and ascend") {

@@ -1,4 +1,4 @@
-// Tables of two variables: polynomials that they reproduce, derivatives, and errors in files.
+// Tests of tables of two variables: polynomials that they reproduce, derivatives, and errors in files.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -90,7 +90,8 @@ TEST_CASE("A formula reads tables of two variables, with exact derivatives along
   CHECK_THAT(plain.derivative(quarter, 0), WithinAbs(2 * (4 - 4), 1e-14));
   CHECK_THAT(plain.derivative(quarter, 1), WithinAbs(2 * (1 - 1), 1e-14));
   CHECK(formula("table2('grid.csv', 0.25, 2)")(quarter) == 1 + 2 + 1 - 2);
-  // Along a curve in the grid both arguments move: differences of values and of first derivatives.
+  // Both arguments change along a curve in the grid; the derivatives are compared with differences of values and of
+  // first derivatives.
   const Expression smooth = formula("spline2('wavy.txt', 1 + sin(x), x*x + 0.1*y)");
   const double h = 1e-5;
   const std::vector<double> at = {0.7, 0.3}, above = {0.7 + h, 0.3}, below = {0.7 - h, 0.3};
@@ -104,7 +105,7 @@ TEST_CASE("A formula reads tables of two variables, with exact derivatives along
   CHECK(formula("table2('grid.csv', x, 1)").break_points() == std::vector<double>{0, 1});
 }
 
-TEST_CASE("Tables of two variables end at their borders, and files that are no grid are refused") {
+TEST_CASE("Tables of two variables are not extrapolated, and files that are no grid are refused") {
   const bielle::test::TemporaryFolder folder;
   folder.file("grid.csv", grid_of_numbers);
   const auto value = [&](const std::string& text) { return Expression(text, {"t"}, {}, folder.path())(0.5); };

@@ -17,12 +17,12 @@ std::string units(const std::string& text, const std::string& folder = ".") {
                            folder);
   return units_of(formula, {"m", "m", "rad", "rad/s", "N", "N m", "m/s", "s", "-", ""});
 }
-/// Returns the units of a variable after reading and writing.
+/// Returns units that were read and written again.
 std::string read(const std::string& text) { return units_of(Expression("a", {"a"}), {text}); }
 
 }  // namespace
 
-TEST_CASE("Units are read and written alike") {
+TEST_CASE("Units are written as they were read") {
   for (const std::string text :
        {"m", "-", "N m", "rad/s", "N m/rad", "m^2/s^2", "1/s", "N/(m s)", "Pa", "kg m^2", "1/(m s^2)", ""})
     CHECK(read(text) == text);
@@ -52,7 +52,7 @@ TEST_CASE("Sums and choices keep the units of their terms") {
   CHECK(units("x + what").empty());
 }
 
-TEST_CASE("Products and quotients combine units; constants are free of them") {
+TEST_CASE("Products and quotients combine units; constants have none") {
   CHECK(units("force*v") == "N m/s");
   CHECK(units("x/t") == "m/s");
   CHECK(units("x/y") == "-");
@@ -70,7 +70,7 @@ TEST_CASE("Products and quotients combine units; constants are free of them") {
   CHECK(units("if(t > 1, 2, 3)").empty());
 }
 
-TEST_CASE("Powers multiply exponents that stay whole") {
+TEST_CASE("Powers multiply exponents, which remain whole numbers") {
   CHECK(units("x^2") == "m^2");
   CHECK(units("v^2") == "m^2/s^2");
   CHECK(units("t^-1") == "1/s");
@@ -88,7 +88,7 @@ TEST_CASE("Powers multiply exponents that stay whole") {
   CHECK(units("if(t > 0, x^(1/0), x)").empty());
 }
 
-TEST_CASE("Functions and comparisons are pure numbers") {
+TEST_CASE("Functions and comparisons are dimensionless") {
   for (const std::string text : {"sin(angle)", "atan2(y, x)", "exp(-t)", "ln(x)", "sign(x)", "x > 1", "x == y", "!x",
                                  "x && y", "step(t, 0, 1)", "ramp(t, 0, 1)", "pulse(t, 0, 1)"})
     CHECK(units(text) == "-");
@@ -96,7 +96,7 @@ TEST_CASE("Functions and comparisons are pure numbers") {
   CHECK(units("(x > 1)*force") == "N");
 }
 
-TEST_CASE("Units of tables and of variables without them are unknown") {
+TEST_CASE("The units of tables, and of variables without units, are unknown") {
   const bielle::test::TemporaryFolder folder;
   folder.file("c.csv", "0 1\n1 2\n");
   CHECK(units("table('c.csv', x)", folder.path()).empty());

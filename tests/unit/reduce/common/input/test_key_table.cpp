@@ -1,4 +1,4 @@
-// Maps bound to tables of keys: refusals, units, ranges, defaults, and the forms of what is below them.
+// Tests of maps that are bound to tables of keys: refusals, units, ranges, defaults, and the forms of nested values.
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -108,13 +108,14 @@ TEST_CASE("An unknown key is refused with the nearest name") {
              Contains("a: expected a hinge as keys with values"));
 }
 
-TEST_CASE("Words of other programs are refused with the words here, where these are expected") {
+TEST_CASE("Words of other programs are refused with the corresponding word, if that one is expected") {
   const auto nothing = [](const YamlValue&) {};
   CHECK(why("c: 1", nothing) == "a.yaml:1: hinge: 'c' is not a key of a hinge; here it is called 'damping'");
   CHECK(why("modes: 1", nothing) == "a.yaml:1: hinge: 'modes' is not a key of a hinge; here it is called 'count'");
   CHECK(why("i: a", nothing) ==
         "a.yaml:1: hinge: 'i' is not a key of a hinge; here both nodes are in one list: `nodes: [first, second]`");
-  CHECK_THAT(why("k: 1", nothing), Contains("'k' is not a key of a hinge; expected one of "));  // it has no stiffness
+  CHECK_THAT(why("k: 1", nothing),
+             Contains("'k' is not a key of a hinge; expected one of "));  // no 'stiffness'
   const std::vector<std::string> both = {"speed", "rate"}, types = {"eigen", "dynamic"};
   CHECK(called_here("velocity", both) == "; here it is called 'rate' or 'speed'");
   CHECK(called_here("velocity", types) == did_you_mean("velocity", types));
@@ -152,7 +153,7 @@ TEST_CASE("A key that the table lacks is an error of the program") {
   CHECK_THROWS_AS(hinge("kind: dry").at("kind").expression(), std::logic_error);
 }
 
-TEST_CASE("Ranges in words") {
+TEST_CASE("Ranges are written in words") {
   CHECK(keys::number().range_words().empty());
   CHECK(keys::number().positive().range_words() == "greater than 0");
   CHECK(keys::number().non_negative().range_words() == "of at least 0");
@@ -216,7 +217,7 @@ TEST_CASE("A word is one of those of the table") {
         "a.yaml:1: hinge.kind: 'wett' is not a kind of friction; did you mean 'wet'?");
 }
 
-TEST_CASE("A nested table is bound when its map is taken") {
+TEST_CASE("A nested table is bound when its map is read") {
   const YamlValue friction = hinge("friction: {radius: 12 mm}").at("friction");
   CHECK(friction.at("radius").number() == Approx(0.012));
   CHECK(friction.at("coefficient").number() == 0.1);
@@ -230,7 +231,7 @@ TEST_CASE("A nested table is bound when its map is taken") {
         "a.yaml:1: hinge.friction: expected the friction as keys with values (`friction: {radius: 5}`)");
 }
 
-TEST_CASE("A number in place of a map is shown as the only required key that it fits") {
+TEST_CASE("The message about a number in place of a map suggests the only required key that it fits") {
   const auto find = [](const YamlValue& entry) { entry.at("friction").find("radius"); };
   CHECK(why("friction: 0.5", find) ==
         "a.yaml:1: hinge.friction: expected the friction as keys with values (`friction: {radius: 0.5}`)");
@@ -249,7 +250,7 @@ TEST_CASE("A number or a table: each has its own form") {
   CHECK(hinge("drag: {radius: 1}").at("drag").at("coefficient").number() == 0.1);
 }
 
-TEST_CASE("With several tables the reader binds the one it chooses") {
+TEST_CASE("If there are several tables, the reader binds the one that it chooses") {
   const YamlValue either = hinge("either: {cylinder: 1 mm, length: 2}").at("either");
   CHECK(either.keyed(cylinder_keys()).at("cylinder").number() == Approx(1e-3));
   CHECK_THAT(message_of<InputError>([&] { either.keyed(friction_keys()); }),
@@ -279,12 +280,12 @@ TEST_CASE("Variants are chosen by a key that is present") {
   CHECK_THROWS_AS(shape.at("size"), std::logic_error);
 }
 
-TEST_CASE("Variants are chosen by the value of a key, others have the keys of the table itself") {
+TEST_CASE("Variants are chosen by the value of a key; other values have the keys of the table itself") {
   CHECK(hinge("shape: {shape: ball, radius: 2 mm}").at("shape").at("radius").number() == Approx(2e-3));
   CHECK_THAT(why("shape: {shape: ball, size: 1}", [](const YamlValue& entry) { entry.at("shape"); }),
              Contains("'size' is not a key of a ball"));
   CHECK(hinge("shape: {shape: cube, size: 3}").at("shape").at("size").number() == 3);
-  // The reader of the map knows more about a value that is none of the variants.
+  // The reader of the map has a better message for a value that is none of the variants.
   CHECK(hinge("shape: {shape: cube, radius: 2}").at("shape").at("shape").text() == "cube");
 }
 
@@ -309,7 +310,7 @@ TEST_CASE("Matrices have the unit of the table") {
              Contains("hinge.matrix[1][1]: expected a value in N/m, found one in 'kg'"));
 }
 
-TEST_CASE("Places of a tuple have their own forms, and items beyond it those of the last") {
+TEST_CASE("Each item of a tuple has its own form, and items beyond it the form of the last") {
   const YamlValue pair = hinge("pair: [3 mm, 180 deg]").at("pair");
   CHECK(pair.at(0).number() == Approx(3e-3));
   CHECK(pair.at(1).number() == Approx(std::acos(-1.0)));
@@ -323,7 +324,7 @@ TEST_CASE("Places of a tuple have their own forms, and items beyond it those of 
   CHECK_THAT(message_of<InputError>([&] { pair.at(2); }), Contains("expected at least 3 items, found 2"));
 }
 
-TEST_CASE("Entries have keys of the user's choice, and values of one form") {
+TEST_CASE("Entries have keys that the user chooses, and values of one form") {
   const auto springs = hinge("springs: {left: 2 N/mm, right: 3}").at("springs").entries();
   REQUIRE(springs.size() == 2);
   CHECK(springs[0].first == "left");
@@ -340,7 +341,7 @@ TEST_CASE("Entries have keys of the user's choice, and values of one form") {
   CHECK(hinge("sizes: {a: 3 mm, b: 2 kN}").at("sizes").at("b").number() == 2000);
 }
 
-TEST_CASE("Values of another kind than their form are refused") {
+TEST_CASE("Values that do not have the expected form are refused") {
   CHECK_THAT(why("axis: 3", [](const YamlValue& entry) { entry.at("axis").vector3(); }),
              Contains("hinge.axis: expected a list of three numbers"));
   CHECK_THAT(why_number("damping", "[1]"), Contains("hinge.damping: expected a number"));
@@ -354,7 +355,7 @@ TEST_CASE("Values of another kind than their form are refused") {
              Contains("hinge.pair: expected a list"));
 }
 
-TEST_CASE("Tables list their names, and groups of keys are joined in their order") {
+TEST_CASE("Tables list their names, and joined groups of keys keep their order") {
   CHECK(friction_keys().names() == std::vector<std::string>{"coefficient", "radius"});
   CHECK(friction_keys().find("radius")->presence.required);
   CHECK_FALSE(friction_keys().find("mass"));
@@ -364,7 +365,7 @@ TEST_CASE("Tables list their names, and groups of keys are joined in their order
 
 }  // namespace test_key_table
 
-TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or by words of it") {
+TEST_CASE("The keys of a table are found by its name, with blanks or underscores, or by words of the name") {
   using namespace keys;
   const auto table_named = [](const char* of, const char* about) {
     return KeyTable{of, about, {{"size", number("m"), required, ""}}};
@@ -391,7 +392,7 @@ TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or
   CHECK(headings("point_mass") == "point_mass");
   CHECK(headings("sampled") == "sampled state");
   CHECK(headings("state") == "sampled state, delayed state");
-  CHECK(headings("tapered") == "point_mass");  // by a word of its sentence, which counts if no name has it
+  CHECK(headings("tapered") == "point_mass");  // found by a word of its sentence, which counts if no name contains it
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }),
              Contains("; expected 'sampled state'; `--keys all`"));
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }),

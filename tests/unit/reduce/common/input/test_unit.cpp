@@ -1,4 +1,4 @@
-// Numbers with units: their parts, their values in SI units, and the messages about units that do not fit.
+// Tests of numbers with units: their parts, their values in SI units, and the messages about units that do not fit.
 #include <cmath>
 #include <string>
 
@@ -48,13 +48,13 @@ TEST_CASE("Quantities are converted to the SI unit that is expected") {
   CHECK(si("1 kWh", "J") == Approx(3.6e6));
 }
 
-TEST_CASE("Temperatures have an origin of their own") {
+TEST_CASE("Temperature scales have different zeros") {
   CHECK(si("20 degC", "K") == Approx(293.15));
   CHECK(si("-40 degF", "K") == Approx(233.15));
   CHECK(si("20 degC", "any") == Approx(293.15));
 }
 
-TEST_CASE("A whole turn in degrees is 2 pi to the last digit") { CHECK(si("360 deg", "rad") == turn); }
+TEST_CASE("360 degrees are 2 pi to the last digit") { CHECK(si("360 deg", "rad") == turn); }
 
 TEST_CASE("An angle is a dimension") {
   CHECK(refusal("50 Hz", "rad/s") == "expected a value in rad/s, found one in 'Hz', which measures something else");
@@ -65,14 +65,14 @@ TEST_CASE("An angle is a dimension") {
   CHECK(refusal("5 deg", "m") == "expected a value in m, found one in 'deg', which measures something else");
 }
 
-TEST_CASE("A unit is not its reciprocal") {
+TEST_CASE("A unit does not stand for its reciprocal") {
   CHECK(refusal("50 Hz", "s") == "expected a value in s, found one in 'Hz', which measures something else");
   CHECK(refusal("20 ms", "Hz") == "expected a value in Hz, found one in 'ms', which measures something else");
   CHECK(refusal("5 1/m", "m") == "expected a value in m, found one in '1/m', which measures something else");
   CHECK(refusal("5 1/deg", "rad") == "expected a value in rad, found one in '1/deg', which measures something else");
 }
 
-TEST_CASE("One of several units is taken, the one that fits") {
+TEST_CASE("If several units are expected, the one that fits is used") {
   CHECK(si("3 mm", "m or rad") == Approx(3e-3));
   CHECK(si("3 deg", "m or rad") == Approx(3 * turn / 360));
   CHECK(si("3 deg/s^2", "m/s^2 or rad/s^2") == Approx(3 * turn / 360));
@@ -80,7 +80,7 @@ TEST_CASE("One of several units is taken, the one that fits") {
         "expected a value in m or rad, found one in 'kg', which measures something else");
 }
 
-TEST_CASE("A unit that is not expected or not known is refused") {
+TEST_CASE("A unit that is not expected, or unknown, is refused") {
   CHECK(refusal("5 mm", "") == "expected a number without a unit, found the unit 'mm'");
   CHECK(refusal("5 %", "") == "expected a number without a unit, found the unit '%'");
   CHECK(refusal("5 furlongz", "m") == "'furlongz' is no unit; expected one of m");
@@ -88,7 +88,7 @@ TEST_CASE("A unit that is not expected or not known is refused") {
   CHECK(refusal("3 mm", "m^2") == "expected a value in m^2, found one in 'mm', which measures something else");
 }
 
-TEST_CASE("Where any unit may stand, the base units of the SI are meant") {
+TEST_CASE("If any unit is allowed, values are in the base units of the SI") {
   CHECK(si("5 mm", "any") == Approx(5e-3));
   CHECK(si("3 kN", "any") == Approx(3000));
   CHECK(si("30 min", "any") == Approx(1800));

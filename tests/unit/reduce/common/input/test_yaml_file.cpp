@@ -28,7 +28,7 @@ std::string why(Action&& action) {
 
 }  // namespace
 
-TEST_CASE("Values are found by key and index, with their place") {
+TEST_CASE("Values are found by key and index, with their place in the file") {
   const YamlValue file = parsed("# a comment\njoints:\n  main:\n    axis: [0, 0, 1]\n    nodes: [a, b]\n");
   const YamlValue axis = file.at("joints").at("main").at("axis");
   CHECK(axis.line() == 4);
@@ -50,7 +50,7 @@ TEST_CASE("Entries come in the order of the file") {
   CHECK(keys == "z1a2m3");
 }
 
-TEST_CASE("A missing or unreadable file is an error in one sentence") {
+TEST_CASE("A missing or unreadable file gives a message of one sentence") {
   const bielle::test::TemporaryFolder folder;
   CHECK_THAT(why([&] { YamlValue::load(folder / "none.yaml"); }), Contains("none.yaml: there is no such file"));
   CHECK_THAT(why([&] { YamlValue::load(folder.path()); }), Contains("is a folder"));
@@ -58,7 +58,7 @@ TEST_CASE("A missing or unreadable file is an error in one sentence") {
   CHECK_THAT(why([&] { YamlValue::load(folder.file("comment.yaml", "# nothing\n")); }), Contains("the file is empty"));
 }
 
-TEST_CASE("Invalid YAML is an error with its line") {
+TEST_CASE("Invalid YAML gives a message with its line") {
   CHECK_THAT(why_wrong("a: 1\nb: [1, 2\nc: 3\n"), Contains("crank.yaml:3: no valid YAML"));
   CHECK_THAT(why_wrong("a: 1\n\tb: 2\n"), Contains("crank.yaml:2: no valid YAML"));
   CHECK_THAT(why_wrong("a:\n  \tb: 2\n"), Contains("(line 2 begins with a tab; YAML wants spaces there)"));
@@ -68,7 +68,7 @@ TEST_CASE("Invalid YAML is an error with its line") {
   CHECK_THAT(why_wrong("a: &x {b: 1}\n---\n*x\n"), Contains("crank.yaml:3: a second document"));
 }
 
-TEST_CASE("Tags, bytes that are no text, and deep nesting are refused with their line") {
+TEST_CASE("Tags, bytes that are not text, and deep nesting are refused with their line") {
   CHECK(why_wrong("a: 1\nb: !include c.yaml\n") == "crank.yaml:2: tags ('!include') are not supported");
   CHECK(parsed("a: !!str 5\n").at("a").number() == 5);
   CHECK_THAT(why_wrong("a: 1\nb: \xff\n"), Contains("crank.yaml:2: no valid YAML: invalid leading UTF-8 octet"));
@@ -83,7 +83,7 @@ TEST_CASE("Tags, bytes that are no text, and deep nesting are refused with their
   CHECK_THAT(why_wrong(laughs), Contains("aliases (`*name`) repeat more than 100000 values"));
 }
 
-TEST_CASE("Nothing, ~ and null are null, quoted ones are texts") {
+TEST_CASE("An empty value, ~ and null are null; quoted ones are texts") {
   const YamlValue file = parsed("list: [~, null, 'null', '', \"~\"]\n");
   CHECK(file.at("list").at(0).is_null());
   CHECK(file.at("list").at(1).is_null());
@@ -91,7 +91,7 @@ TEST_CASE("Nothing, ~ and null are null, quoted ones are texts") {
   CHECK_THAT(why_wrong("~: 1\n"), Contains("a key must be a word"));
 }
 
-TEST_CASE("Duplicate keys, merge keys and keys that are no words are refused at any depth") {
+TEST_CASE("Duplicate keys, merge keys and keys that are not words are refused at any depth") {
   CHECK_THAT(why_wrong("a: 1\nb: 2\na: 3\n"), Contains("crank.yaml:3: a: this key stands here twice; first on line 1"));
   CHECK_THAT(why_wrong("list:\n  - {x: 1}\n  - {y: 1,\n     y: 2}\n"), Contains("crank.yaml:4: list[2].y: this key"));
   CHECK_THAT(why_wrong("base: &b {x: 1}\nother:\n  <<: *b\n  y: 2\n"), Contains("crank.yaml:3: other: '<<'"));
@@ -100,7 +100,7 @@ TEST_CASE("Duplicate keys, merge keys and keys that are no words are refused at 
   CHECK(parsed("base: &b {x: 1}\nother: *b\n").at("other").at("x").number() == 1);
 }
 
-TEST_CASE("Nothing is a map without keys, at the line of its key") {
+TEST_CASE("An empty value is a map without keys, at the line of its key") {
   const YamlValue file = parsed("a: 1\nempty:\n\n\nb: 2\nlast:\n");
   const YamlValue empty = file.at("empty");
   CHECK(empty.is_null());
@@ -140,7 +140,7 @@ TEST_CASE("Numbers are plain or formulas of the parameters") {
   CHECK(file.at("g").number() == 250);
 }
 
-TEST_CASE("What is no finite number is refused with its place") {
+TEST_CASE("Values that are not finite numbers are refused with their place") {
   const YamlValue file = parsed("a: x2\nb: [1]\nc: .inf\nd: .nan\ne: 1/0\nf: 1,5\ng: true\nh: ''\ni: 1e999\nj: inf\n");
   CHECK_THAT(why([&] { file.at("a").number(); }), Contains("crank.yaml:1: a: in 'x2': unknown name 'x2'"));
   CHECK_THAT(why([&] { file.at("b").number(); }), Contains("crank.yaml:2: b: expected a number"));
@@ -154,7 +154,7 @@ TEST_CASE("What is no finite number is refused with its place") {
   CHECK_THAT(why([&] { file.at("j").number(); }), Contains("expected a finite number"));
 }
 
-TEST_CASE("Bounded numbers, whole numbers and truth values say what they expect") {
+TEST_CASE("Messages about bounded numbers, whole numbers and truth values tell the expected value") {
   const YamlValue file =
       parsed("zero: 0\nminus: -1\nhalf: 0.5\nseven: \"3+4\"\nbig: 3e9\nyes: true\nno: False\nmaybe: yes\n");
   CHECK(why([&] { file.at("zero").positive_number(); }) ==
@@ -182,7 +182,7 @@ TEST_CASE("A word must be one of those allowed") {
              Contains("expected a joint type as one word; expected one of 'hinge', 'screw'"));
 }
 
-TEST_CASE("Vectors, directions and matrices have the shapes asked for") {
+TEST_CASE("Vectors, directions and matrices must have the requested shape") {
   YamlValue file =
       parsed("v: [1, \"r\", 3]\nm: [[1, 2, 3], [4, 5, 6]]\nzero: [0, 0, 0]\ntwo: [1, 2]\nragged: [[1, 2], [3]]\n");
   file.set_parameters({{"r", 2}});
@@ -203,7 +203,7 @@ TEST_CASE("Vectors, directions and matrices have the shapes asked for") {
   CHECK_THAT(why([&] { file.text(); }), Contains("crank.yaml:1: expected a text"));
 }
 
-TEST_CASE("Formulas of variables keep the parameters and the place") {
+TEST_CASE("Formulas of variables keep the parameters and their place") {
   YamlValue file = parsed("torque: 3*t + r\nwrong: 3*tt\n");
   file.set_parameters({{"r", 2}});
   CHECK(file.at("torque").expression({"t"})(2.0) == 8);
@@ -224,7 +224,7 @@ TEST_CASE("File names are relative to the input file") {
   CHECK(file.at("t").expression({"t"})(0.5) == 1.5);
 }
 
-TEST_CASE("A digest tells values by what they count, not by how they are written") {
+TEST_CASE("A digest depends on the values, not on how they are written") {
   using Digest = std::vector<std::pair<std::string, std::string>>;
   const bielle::test::TemporaryFolder folder;
   folder.file("c.csv", "0 1\n1 2\n");
@@ -238,7 +238,7 @@ TEST_CASE("A digest tells values by what they count, not by how they are written
       Digest{
           {"a.b", "1000"}, {"a.c[1]", "1.5"}, {"a.c[2]", "2*k*t (k = 3)"}, {"d", "{}"}, {"e", "[]"}, {"f", "nothing"}});
   CHECK(digest("a: 1000.0 # m\n") == digest("a: '1e3'\noutput: 8\n"));
-  CHECK(digest("a: arm.k\n") == Digest{{"a", "arm.k"}});  // a quantity of something, no parameter
+  CHECK(digest("a: arm.k\n") == Digest{{"a", "arm.k"}});  // measure k of `arm`, not the parameter k
   const Digest before = digest("a: c.csv\nb: table('c.csv', t)\n");
   CHECK(before == digest("a: c.csv\nb: table('c.csv', t)\n"));
   CHECK_THAT(before[0].second, Contains("c.csv (contents "));

@@ -56,7 +56,7 @@ void exchange(Packing& packing, Part& part) {
 
 }  // namespace
 
-TEST_CASE("child process: what the work returns and throws arrives", "[common]") {
+TEST_CASE("child process: results and exceptions of the work arrive", "[common]") {
   const std::string long_text(3'000'000, 'x');
   CHECK(in_child_process("lost", {}, [&] { return long_text; }) == long_text);
   CHECK(in_child_process("lost", {}, [] { return std::string(); }).empty());
@@ -83,13 +83,13 @@ TEST_CASE("child process: failures keep their subjects", "[common]") {
   CHECK(failure<InputError>(loss, []() -> std::string { std::abort(); }) == Told("geometry", "geometry: lost"));
 }
 
-TEST_CASE("child process: a crash is a sentence, however it comes", "[common]") {
+TEST_CASE("child process: every kind of crash gives a message", "[common]") {
   CHECK(ended_by([] { std::raise(SIGKILL); }) == "a.msh: lost");
   CHECK(ended_by([] { std::abort(); }) == "a.msh: lost");
   CHECK(ended_by([] { _exit(0); }) == "a.msh: lost");
 }
 
-TEST_CASE("child process: one that may start no other program is ended when it tries, and says so", "[common]") {
+TEST_CASE("child process: one that must not start other programs is ended if it tries, with a message", "[common]") {
   ChildLoss loss("crashed");
   loss.ended = "ended";
   loss.forbidden = "forbidden";
@@ -113,11 +113,11 @@ TEST_CASE("child process: one that may start no other program is ended when it t
   CHECK(end_of([] { static_cast<void>(fork()); }) == "forbidden");
   CHECK(end_of([] { execl("/bin/true", "true", nullptr); }) == "forbidden");
   CHECK(end_of([] {
-          std::signal(SIGSEGV, SIG_DFL);  // test programs and sanitizers have handlers of their own
+          std::signal(SIGSEGV, SIG_DFL);  // removes the handlers of test programs and sanitizers
           std::raise(SIGSEGV);
         }) == "crashed");
   CHECK(end_of([] { _exit(0); }) == "ended");
-  // Threads, files and memory of the parent do not matter.
+  // Threads, files and memory of the parent must have no influence.
   CHECK(in_child_process("lost", {}, [] {
           forbid_other_programs();
           std::string text;
@@ -126,7 +126,7 @@ TEST_CASE("child process: one that may start no other program is ended when it t
         }) == "from a thread");
 }
 
-TEST_CASE("child process: work without end is ended", "[common]") {
+TEST_CASE("child process: work that does not end is killed", "[common]") {
   const auto endless = [] {
     for (volatile bool more = true; more;) {
     }
@@ -134,7 +134,7 @@ TEST_CASE("child process: work without end is ended", "[common]") {
   CHECK(ended_by(endless, {.seconds = 1}) == "a.msh: lost");
 }
 
-#ifndef __SANITIZE_ADDRESS__  // its operator new ends the program if memory is refused
+#ifndef __SANITIZE_ADDRESS__  // its operator new aborts if memory is refused
 TEST_CASE("child process: an allocation beyond its limit of memory fails", "[common]") {
   const auto allocate = [](std::uint64_t limit) {
     return in_child_process("lost", {.memory = limit},
@@ -145,7 +145,7 @@ TEST_CASE("child process: an allocation beyond its limit of memory fails", "[com
 }
 #endif
 
-TEST_CASE("packing: all comes back as it was", "[common]") {
+TEST_CASE("packing: values are unpacked as they were packed", "[common]") {
   Part part{7, {{"a", {1, 2.5}}, {"", {}}}, Eigen::Matrix3Xd::Random(3, 5)}, found;
   Packing packing;
   packing(part);
@@ -154,5 +154,5 @@ TEST_CASE("packing: all comes back as it was", "[common]") {
   CHECK(found.number == 7);
   CHECK(found.lists == part.lists);
   CHECK(found.points == part.points);
-  CHECK_THROWS_AS(back(found), std::logic_error);  // no more is there
+  CHECK_THROWS_AS(back(found), std::logic_error);  // nothing is left
 }

@@ -1,4 +1,4 @@
-// A single rank: a program that mpirun did not start. Two and three run in contract/programs/test_distributed.py.
+// This program runs as a single rank, without mpirun. contract/programs/test_distributed.py runs two and three ranks.
 #include <cstdlib>
 
 #include <catch2/catch.hpp>
@@ -32,7 +32,7 @@ reduce::Entries entries_of(const SymmetricMatrix& a) {
   return entries;
 }
 
-/// MUMPS's factor as a `Factor`, as bielle-reduce uses it over its channel, here without the channel.
+/// MUMPS's factor as a `Factor`. bielle-reduce uses it through a channel, which this test omits.
 class FactorOfRanks : public Factor {
  public:
   explicit FactorOfRanks(const SymmetricMatrix& a) {
