@@ -1,5 +1,6 @@
 #include "mechanism/joints/flexible/film_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -12,23 +13,25 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr int half = 12, nodes = 2 * half + 1;
-constexpr double last = 0.995;  ///< eccentricity of the last nodes on the axes
+constexpr int nodes_per_side = 12, node_count = 2 * nodes_per_side + 1;
+constexpr double last_eccentricity = 0.995;  ///< of the last nodes on the axes
 
-double node_distance() { return std::asinh(last / std::sqrt(1 - last * last)) / half; }
+double node_distance() {
+  return std::asinh(last_eccentricity / std::sqrt(1 - last_eccentricity * last_eccentricity)) / nodes_per_side;
+}
 
 /// Index of a coefficient, mirrored at the ends: the slope of the spline is zero there.
-int mirrored(int k) { return k < 0 ? -k : k < nodes ? k : 2 * (nodes - 1) - k; }
+int mirrored_node(int k) { return k < 0 ? -k : k < node_count ? k : 2 * (node_count - 1) - k; }
 
 /// Weights of the four B-splines that are not zero at a place, and their slopes.
-struct Blend {
+struct SplineBlend {
   int first = 0;
   std::array<double, 4> weight, slope;
-  explicit Blend(double place) {
-    constexpr double end = nodes - 1;
+  explicit SplineBlend(double place) {
+    constexpr double end = node_count - 1;
     const bool outside = place <= 0 || place >= end;
     const double inside = std::min(std::max(place, 0.0), end);
-    const int cell = std::min(static_cast<int>(inside), nodes - 2);
+    const int cell = std::min(static_cast<int>(inside), node_count - 2);
     const double t = inside - cell, r = 1 - t;
     first = cell - 1;
     weight = {r * r * r / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * r * r + 3 * r * r * r) / 6, t * t * t / 6};
@@ -43,24 +46,24 @@ FilmMap::FilmMap(double slenderness) {
   const JournalFilm half_film(slenderness);
   const double step = node_distance();
   std::array<MatrixX, 2> values;
-  values.fill(MatrixX::Zero(nodes, nodes));
-  for (int i = 0; i < nodes; ++i)
-    for (int j = half; j < nodes; ++j) {
-      const double X = std::sinh((i - half) * step), Y = std::sinh((j - half) * step),
+  values.fill(MatrixX::Zero(node_count, node_count));
+  for (int i = 0; i < node_count; ++i)
+    for (int j = nodes_per_side; j < node_count; ++j) {
+      const double X = std::sinh((i - nodes_per_side) * step), Y = std::sinh((j - nodes_per_side) * step),
                    size = std::sqrt(1 + X * X + Y * Y);
       const Vector2 W = half_film.shape(X / size, Y / size).W;
       const Vector2 D = (reynolds_film(X / size, Y / size, slenderness) - W) / W.norm();
-      const int opposite = nodes - 1 - j;  // at -d
+      const int opposite = node_count - 1 - j;  // at -d
       values[0](i, j) = values[0](i, opposite) = D[0];
-      if (j == half) continue;
+      if (j == nodes_per_side) continue;
       values[1](i, j) = D[1];
       values[1](i, opposite) = -D[1];
     }
-  MatrixX spline = MatrixX::Zero(nodes, nodes);
-  for (int k = 0; k < nodes; ++k) {
+  MatrixX spline = MatrixX::Zero(node_count, node_count);
+  for (int k = 0; k < node_count; ++k) {
     spline(k, k) += 4.0 / 6;
-    spline(k, mirrored(k - 1)) += 1.0 / 6;
-    spline(k, mirrored(k + 1)) += 1.0 / 6;
+    spline(k, mirrored_node(k - 1)) += 1.0 / 6;
+    spline(k, mirrored_node(k + 1)) += 1.0 / 6;
   }
   const Eigen::PartialPivLU<MatrixX> factor(spline);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -76,16 +79,16 @@ std::array<FilmMap::Jet, 2> FilmMap::difference(double a_value, double d_value) 
   const auto place = [&](const Jet& x) {
     const Jet X = x * scale;
     const double step = node_distance();
-    return compose(X, std::asinh(X.value) / step + half, 1 / (step * std::sqrt(1 + X.value * X.value)));
+    return compose(X, std::asinh(X.value) / step + nodes_per_side, 1 / (step * std::sqrt(1 + X.value * X.value)));
   };
   const Jet u = place(a), v = place(d);
-  const Blend along_a(u.value), along_d(v.value);
+  const SplineBlend along_a(u.value), along_d(v.value);
   std::array<Jet, 2> D;
   for (std::size_t k = 0; k < 2; ++k) {
     double value = 0, by_u = 0, by_v = 0;
     for (int p = 0; p < 4; ++p)
       for (int q = 0; q < 4; ++q) {
-        const double c = coefficients_[k](mirrored(along_a.first + p), mirrored(along_d.first + q));
+        const double c = coefficients_[k](mirrored_node(along_a.first + p), mirrored_node(along_d.first + q));
         const auto i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
         value += c * along_a.weight[i] * along_d.weight[j];
         by_u += c * along_a.slope[i] * along_d.weight[j];

@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 namespace {
 
 using std::numbers::pi;
-using Sparse = Eigen::SparseMatrix<double>;
+using FilmMatrix = Eigen::SparseMatrix<double>;
 
 /// Weights of Clenshaw and Curtis at z = sin(pi j/(2 m)), j < m, for even functions over |z| < 1 that vanish at its
 /// ends.
@@ -142,9 +142,9 @@ void FilmCells::find_pressure() {
     couple(at(after(i), j), height_[j] * flow_[i]);
     if (j + 1 < m_) couple(at(i, j + 1), side_[i] * reach_[j]);
   }
-  Sparse matrix(count, count);
+  FilmMatrix matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
+  const Eigen::SimplicialLLT<FilmMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
   if (factor.info() != Eigen::Success) throw ComputationError("the pressure of an oil film has no finite value");
   const VectorX found = factor.solve(known);
   p_.setZero(static_cast<Eigen::Index>(wet_.size()));
