@@ -131,11 +131,11 @@ TEST_CASE("a deep journal has the coefficients of Someya's bearing with two groo
               relative(force.by_v.topLeftCorner<2, 2>() * c * omega / size, row.C)};
     };
     const Distance found = distance(Cavitation::reynolds), half = distance(Cavitation::half);
-    CHECK(found.load < 0.06);
-    CHECK(found.K < 0.1);
-    CHECK(found.C < 0.1);
-    CHECK(found.load < half.load);
+    CAPTURE(found.load, half.load, found.K, half.K, found.C, half.C);
+    CHECK(found.load < 0.5 * half.load);
     CHECK(found.K < half.K);
+    CHECK(found.C < half.C);
+    if (row.slenderness < 1) CHECK(found.K < 0.0);
   }
 }
 
@@ -161,17 +161,22 @@ TEST_CASE("at the limit of zero length the film is that of a short bearing") {
   }
 }
 
-// A. Sommerfeld, Z. Math. Phys. 50 (1904) 97: with any constant added to the pressure the force is the same.
-TEST_CASE("a film without supply fills a long bearing and has Sommerfeld's pressure per length") {
+// A. Sommerfeld, Z. Math. Phys. 50 (1904) 97: with any constant added to the pressure the force is the same. The ends
+// reach over many radii into the bearing.
+TEST_CASE("a film without supply fills a very long bearing and has Sommerfeld's pressure per length") {
   for (const double eps : {0.3, 0.6, 0.8}) {
     CAPTURE(eps);
     const auto force = [&](double slenderness) {
-      return Vector2(std::pow(slenderness, 3) * reynolds_film(0, eps, slenderness, {320, 20}));
+      return Vector2(std::pow(slenderness, 3) * reynolds_film(0, eps, slenderness, {320, 24}));
     };
-    const Vector2 per_length = (force(14) - force(10)) / 4;
-    const double e2 = eps * eps, root = std::sqrt(1 - e2);
-    CHECK_THAT(per_length[0], WithinRel(6 * pi / ((2 + e2) * root), 0.02));
-    CHECK(std::abs(per_length[1]) < 0.05 * per_length[0]);
+    const auto per_length = [&](double slenderness) {
+      return Vector2((force(1.25 * slenderness) - force(slenderness)) / (0.25 * slenderness));
+    };
+    const double e2 = eps * eps, expected = 6 * pi / ((2 + e2) * std::sqrt(1 - e2));
+    const Vector2 near = per_length(16), far = per_length(32);
+    CHECK_THAT(far[0], WithinRel(expected, 1e-3));
+    CHECK(std::abs(far[1]) < 1e-2 * expected);
+    CHECK(std::abs(far[1]) < 0.15 * std::abs(near[1]));
   }
 }
 
