@@ -14,7 +14,7 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr int nodes_per_side = 12, node_count = 2 * nodes_per_side + 1;
-constexpr double last_eccentricity = 0.995;  ///< of the last nodes on the axes
+constexpr double last_eccentricity = 0.995;  ///< eccentricity of the last nodes on the axes
 
 double node_distance() {
   return std::asinh(last_eccentricity / std::sqrt(1 - last_eccentricity * last_eccentricity)) / nodes_per_side;

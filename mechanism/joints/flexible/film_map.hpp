@@ -28,7 +28,7 @@ class FilmMap {
   std::array<Jet, 2> difference(double a, double d) const;
 
  private:
-  std::array<MatrixX, 2> coefficients_;  // of cubic B-splines, by X and Y
+  std::array<MatrixX, 2> coefficients_;  // coefficients of cubic B-splines, by X and Y
 };
 
 }  // namespace bielle::mechanism
