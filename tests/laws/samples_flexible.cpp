@@ -248,7 +248,7 @@ std::vector<Sample> rolling_bearings() {
 
 std::vector<Sample> journal_bearings() {
   std::vector<Sample> list;
-  for (const char* film : {"short", "finite"}) {
+  for (const char* film : {"short", "finite", "finite, cavitation: reynolds"}) {
     Sample sample{
         Section::joints,
         "journal_bearing",

@@ -8,8 +8,11 @@
 
 namespace bielle::mechanism {
 
-JournalBearingLaw::JournalBearingLaw(const JournalGeometry& geometry, bool finite)
-    : geometry_(geometry), finite_(finite), film_(finite ? geometry.length / geometry.diameter : 0) {}
+JournalBearingLaw::JournalBearingLaw(const JournalGeometry& geometry, bool finite, Cavitation cavitation)
+    : geometry_(geometry),
+      finite_(finite),
+      cavitation_(cavitation),
+      film_(finite ? geometry.length / geometry.diameter : 0, cavitation) {}
 
 // With u = B/|B|, w = u', a = e.u/c and d = e.w/c:
 //   da = u.de/c + d (w.dB)/|B|,   dd = w.de/c - a (w.dB)/|B|
@@ -45,9 +48,10 @@ std::string JournalBearingLaw::refusal(const Vector6& e) const {
 }
 
 std::vector<std::string> JournalBearingLaw::describe() const {
-  return {fmt::format("film of {:.6g} Pa s, radial clearance {:.6g} m, diameter {:.6g} m, length {:.6g} m, {}",
+  return {fmt::format("film of {:.6g} Pa s, radial clearance {:.6g} m, diameter {:.6g} m, length {:.6g} m, {}{}",
                       geometry_.viscosity, geometry_.clearance, geometry_.diameter, geometry_.length,
-                      finite_ ? "finite length" : "short bearing")};
+                      finite_ ? "finite length" : "short bearing",
+                      finite_ && cavitation_ == Cavitation::reynolds ? ", Reynolds' condition at the edges" : "")};
 }
 
 const KeyTable& journal_bearing_keys() {
@@ -62,7 +66,11 @@ const KeyTable& journal_bearing_keys() {
                {"viscosity", number("Pa s").positive(), required, "Dynamic viscosity of the oil."},
                {"model", word({"short", "finite"}, "a `model` of the film"), otherwise("finite"),
                 "Film of `finite` length, or of a `short` bearing, whose length is less than about half its "
-                "diameter."}},
+                "diameter."},
+               {"cavitation", word({"half", "reynolds"}, "a condition of `cavitation`"), otherwise("half"),
+                "Pressure on `half` of the circumference (Guembel), or no negative pressure, and no slope of the "
+                "pressure at the edges of the film (`reynolds`: Swift, Stieber), for lengths up to 2 diameters. Short "
+                "bearings are the same with both."}},
               joint_action_keys(Moves::both)})};
   return table;
 }
@@ -81,9 +89,17 @@ void read_journal_bearing(const std::string& name, const YamlValue& entry, Model
   if (geometry.length > longest * geometry.diameter)
     entry.at("length").fail(fmt::format("expected at most {} diameters", longest));
   const bool finite = entry.at("model").word() == "finite";
+  const Cavitation cavitation = entry.at("cavitation").word() == "reynolds" ? Cavitation::reynolds : Cavitation::half;
+  constexpr double longest_ruptured = 2;  // in longer ones the pressure reaches around the shaft
+  if (finite && cavitation == Cavitation::reynolds && geometry.length > longest_ruptured * geometry.diameter)
+    entry.at("length").fail(fmt::format(
+        "expected at most {} diameters with `cavitation: reynolds`: in a longer bearing the pressure reaches "
+        "around the shaft and depends on the place of the oil supply, which the film does not have. Take "
+        "`cavitation: half`",
+        longest_ruptured));
   auto made =
       std::make_unique<ShaftBearing>("journal_bearing", name, read_joint_frames(entry, model, AxisNeed::required),
-                                     std::make_shared<JournalBearingLaw>(geometry, finite), model);
+                                     std::make_shared<JournalBearingLaw>(geometry, finite, cavitation), model);
   ShaftBearing& bearing = *made;
   model.add(std::move(made), Entry{Section::joints, name});
   read_joint_actions(entry, bearing, model);

@@ -22,7 +22,7 @@ struct JournalGeometry {
 class JournalBearingLaw final : public BearingLaw {
  public:
   /// @param finite  whether the flow along the circumference is taken into account
-  JournalBearingLaw(const JournalGeometry& geometry, bool finite);
+  JournalBearingLaw(const JournalGeometry& geometry, bool finite, Cavitation cavitation = Cavitation::half);
   Force calc(const Vector6& e, const Vector6& v) const override;
   bool has_rates() const override { return true; }
   bool has_kinks() const override { return true; }  // without motion the film has no direction
@@ -32,11 +32,13 @@ class JournalBearingLaw final : public BearingLaw {
  private:
   JournalGeometry geometry_;
   bool finite_;
+  Cavitation cavitation_;
   JournalFilm film_;
 };
 
 const KeyTable& journal_bearing_keys();
-/// Reads `{type: journal_bearing, nodes, position | at, axis, diameter, length, clearance, viscosity, model}`.
+/// Reads `{type: journal_bearing, nodes, position | at, axis, diameter, length, clearance, viscosity, model,
+/// cavitation}`.
 void read_journal_bearing(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

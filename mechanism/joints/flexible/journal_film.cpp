@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/common/autodiff.hpp"
+#include "mechanism/joints/flexible/film_map.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -86,7 +86,9 @@ FilmForce mode_of_film(const Jet& a, const Jet& d, double stiff) {
 
 }  // namespace
 
-JournalFilm::JournalFilm(double slenderness) : slenderness_(slenderness) {}
+JournalFilm::JournalFilm(double slenderness, Cavitation cavitation)
+    : slenderness_(slenderness),
+      map_(slenderness > 0 && cavitation == Cavitation::reynolds ? FilmMap::of(slenderness) : nullptr) {}
 
 // The pressure p = 6 mu |B|/c^3 sum a_m q_m(s) cos(kappa_m z), kappa_m = m pi/L, a_m = 4 (-1)^((m-1)/2)/(m pi), m odd,
 // has (h^3 q')'/R^2 - kappa_m^2 h^3 q = -cos s. Its integral over z is a_m q_m 2 (-1)^((m-1)/2)/kappa_m: the share of
@@ -106,6 +108,14 @@ JournalFilm::Shape JournalFilm::shape(double a_value, double d_value) const {
       sum.across += share * stiff * mode.across;
     }
     film = {sum.along + rest * film.along, sum.across + rest * film.across};
+  }
+  if (map_) {
+    const std::array<Jet, 2> difference = map_->difference(a_value, d_value);
+    const Jet square = film.along * film.along + film.across * film.across;
+    const double size = std::sqrt(square.value);
+    const Jet scale = compose(square, size, 0.5 / size);
+    film.along += scale * difference[0];
+    film.across += scale * difference[1];
   }
   Shape shape;
   shape.W << film.along.value, film.across.value;

@@ -1516,7 +1516,7 @@ class Entries:
             nodes: Sequence[Any], axis: Sequence[Any], diameter: float | str, length: float | str,
             clearance: float | str, viscosity: float | str, position: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, model: str | None = None,
-            stiffness: Mapping[str, Any] | float | str | None = None,
+            cavitation: str | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
@@ -1543,6 +1543,9 @@ class Entries:
         number; default: the inertial axis most normal to z, as drawn)
         model: Film of `finite` length, or of a `short` bearing, whose length is less than about half its diameter.
         (`short`, `finite`; default: finite)
+        cavitation: Pressure on `half` of the circumference (Guembel), or no negative pressure, and no slope of the
+        pressure at the edges of the film (`reynolds`: Swift, Stieber), for lengths up to 2 diameters. Short bearings
+        are the same with both. (`half`, `reynolds`; default: half)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -1575,10 +1578,10 @@ class Entries:
         """
         self.add("joints", name, {"type": "journal_bearing", "nodes": nodes, "axis": axis, "diameter": diameter,
             "length": length, "clearance": clearance, "viscosity": viscosity, "position": position, "at": at,
-            "second_axis": second_axis, "model": model, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
-            **more})
+            "second_axis": second_axis, "model": model, "cavitation": cavitation, "stiffness": stiffness,
+            "damping": damping, "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch,
+            "one_way": one_way, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
+            "active": active, **more})
 
     def clearance_hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],

@@ -148,27 +148,33 @@ TEST_CASE("a rotor deep in its short bearings is stable at any speed", "[lineari
 
 TEST_CASE("a rotor in bearings of finite length whirls from the limit of their coefficients on", "[linearised]") {
   const ReferenceTable table("journal_film");
-  for (const double slenderness : {1.0, 0.5, 0.25}) {
-    constexpr double eps = 0.4;
-    CAPTURE(slenderness);
-    const std::string name = fmt::format("half.{}.{}", slenderness, eps);
-    const auto coefficients = [&](const char* kind) {
-      Matrix2 matrix;
-      for (const int row : {0, 1})
-        for (const int column : {0, 1})
-          matrix(row, column) = table(fmt::format("{}.{}_{}{}", name, kind, "xy"[row], "xy"[column]));
-      return matrix;
-    };
-    const Limit limit = limit_of(coefficients("stiffness"), coefficients("damping"));
-    const double length = slenderness * diameter, speed = limit.speed();
-    const double viscosity =
-        mass * g / 2 / (table(name + ".load") * speed * diameter * length * std::pow(diameter / 2 / c, 2));
-    const Film film{"finite", length, viscosity, eps, table(name + ".angle") * pi / 180};
-    // The coefficients, and with them the growth at the limit, are known to a thousandth.
-    const std::complex<double> s = fastest_growth(film, speed);
-    CHECK(s.imag() / speed == Approx(limit.ratio()).epsilon(1e-3));
-    CHECK(std::abs(s.real()) < 1e-3 * s.imag());
-  }
+  struct Condition {
+    const char *rows, *model;
+    std::vector<double> slendernesses;
+    double known;  // the coefficients, and with them the growth at the limit
+  };
+  for (const Condition& condition : {Condition{"half", "finite", {1.0, 0.5, 0.25}, 1e-3},
+                                     Condition{"reynolds", "finite, cavitation: reynolds", {1.0, 0.5}, 5e-3}})
+    for (const double slenderness : condition.slendernesses) {
+      constexpr double eps = 0.4;
+      CAPTURE(condition.rows, slenderness);
+      const std::string name = fmt::format("{}.{}.{}", condition.rows, slenderness, eps);
+      const auto coefficients = [&](const char* kind) {
+        Matrix2 matrix;
+        for (const int row : {0, 1})
+          for (const int column : {0, 1})
+            matrix(row, column) = table(fmt::format("{}.{}_{}{}", name, kind, "xy"[row], "xy"[column]));
+        return matrix;
+      };
+      const Limit limit = limit_of(coefficients("stiffness"), coefficients("damping"));
+      const double length = slenderness * diameter, speed = limit.speed();
+      const double viscosity =
+          mass * g / 2 / (table(name + ".load") * speed * diameter * length * std::pow(diameter / 2 / c, 2));
+      const Film film{condition.model, length, viscosity, eps, table(name + ".angle") * pi / 180};
+      const std::complex<double> s = fastest_growth(film, speed);
+      CHECK(s.imag() / speed == Approx(limit.ratio()).epsilon(condition.known));
+      CHECK(std::abs(s.real()) < condition.known * s.imag());
+    }
 }
 
 TEST_CASE("below the limit of whirl a disturbance decays with the rate of the exponent, and above it grows",
