@@ -181,11 +181,12 @@ struct InverseCoefficients {
   explicit InverseCoefficients(double phi_squared) {
     namespace series = coefficient_series;
     const double x = phi_squared;
+    if (x < short_series_angle * short_series_angle) {
+      sum_poles_and_series<5>(x);  // a term is less than 3e-3 of the one before
+      return;
+    }
     if (x < series::pole1 * 1.01) {
-      const double p1 = 1 / (series::pole1 - x), p2 = 1 / (series::pole2 - x);
-      b = 2 * p1 + 2 * p2 + series::horner(series::b, x);
-      bp = 4 * p1 * p1 + 4 * p2 * p2 + series::horner(series::bp, x);
-      bpp = 16 * p1 * p1 * p1 + 16 * p2 * p2 * p2 + series::horner(series::bpp, x);
+      sum_poles_and_series<series::bpp.size()>(x);
       return;
     }
     const double half = std::sqrt(x) / 2;
@@ -195,6 +196,16 @@ struct InverseCoefficients {
     b = (1 - g) / x;
     bp = ((q - g) / x - 2 * b) / x;
     bpp = ((2 * q * (1 - g) + g - q) - 4 * (q + g - 2)) / (x * x * x);
+  }
+
+ private:
+  template <std::size_t terms>
+  void sum_poles_and_series(double x) {
+    namespace series = coefficient_series;
+    const double p1 = 1 / (series::pole1 - x), p2 = 1 / (series::pole2 - x);
+    b = 2 * p1 + 2 * p2 + series::horner_of_first<terms>(series::b, x);
+    bp = 4 * p1 * p1 + 4 * p2 * p2 + series::horner_of_first<terms>(series::bp, x);
+    bpp = 16 * p1 * p1 * p1 + 16 * p2 * p2 * p2 + series::horner_of_first<terms>(series::bpp, x);
   }
 };
 

@@ -23,8 +23,10 @@ Matrix6 tangent_se3(const Vector6& d) {
 
 Matrix6 tangent_se3_inverse(const Vector6& d) {
   Matrix6 inverse;
-  const Matrix3 T = tangent_inverse(d.tail<3>());
-  inverse << T, tangent_inverse_derivative(d.tail<3>(), d.head<3>()), Matrix3::Zero(), T;
+  const Vector3 u = d.head<3>(), psi = d.tail<3>();
+  const InverseCoefficients c(psi.squaredNorm());
+  const Matrix3 T = quadratic_in_skew(psi, 0.5, c.b);
+  inverse << T, tangent_inverse_derivative(c, psi, u), Matrix3::Zero(), T;
   return inverse;
 }
 
@@ -56,18 +58,20 @@ Matrix6 tangent_se3_inverse_derivative(const Vector6& d, const Vector6& e) {
 
 Matrix6 inverse_transpose_gradient_se3(const Vector6& d, const Vector6& f) {
   const Vector3 u = d.head<3>(), psi = d.tail<3>(), n = f.head<3>(), m = f.tail<3>();
-  const Matrix3 g = inverse_transpose_gradient(psi, n);
+  const InverseCoefficients c(psi.squaredNorm());
+  const Matrix3 g = inverse_transpose_gradient(c, psi, n);
   Matrix6 G;
-  G << Matrix3::Zero(), g, g, inverse_transpose_hessian(psi, u, n) + inverse_transpose_gradient(psi, m);
+  G << Matrix3::Zero(), g, g, inverse_transpose_hessian(c, psi, u, n) + inverse_transpose_gradient(c, psi, m);
   return G;
 }
 
 Matrix6 tangent_se3_inverse_gradient(const Vector6& d, const Vector6& w) {
   // T^-1(psi) = T^-T(-psi): both derivatives are therefore those of the transposed inverse at -psi.
   const Vector3 u = d.head<3>(), psi = d.tail<3>(), a = w.head<3>(), c = w.tail<3>();
-  const Matrix3 gc = inverse_transpose_gradient(-psi, c);
+  const InverseCoefficients k(psi.squaredNorm());
+  const Matrix3 gc = inverse_transpose_gradient(k, -psi, c);
   Matrix6 G;
-  G << -gc, -inverse_transpose_gradient(-psi, a) + inverse_transpose_hessian(-psi, u, c), Matrix3::Zero(), -gc;
+  G << -gc, -inverse_transpose_gradient(k, -psi, a) + inverse_transpose_hessian(k, -psi, u, c), Matrix3::Zero(), -gc;
   return G;
 }
 

@@ -66,22 +66,24 @@ Matrix3 tangent_second_derivative(const Vector3& psi, const Vector3& u, const Ve
          pu * pw * (d.d1 * s - d.d2 * ss);
 }
 
-Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u) {
-  const InverseCoefficients c(psi.squaredNorm());
-  const Matrix3 s = skew(psi), v = skew(u);
-  return 0.5 * v + c.b * (s * v + v * s) + (c.bp * psi.dot(u)) * s * s;
+// psi~ u~ + u~ psi~ = psi u^T + u psi^T - 2 (psi.u) 1
+Matrix3 tangent_inverse_derivative(const InverseCoefficients& c, const Vector3& psi, const Vector3& u) {
+  const double pu = psi.dot(u);
+  const Vector3 w = c.b * u + (0.5 * c.bp * pu) * psi;
+  Matrix3 D = psi * w.transpose() + w * psi.transpose() + 0.5 * skew(u);
+  D.diagonal().array() -= 2 * psi.dot(w);
+  return D;
 }
 
-Matrix3 inverse_transpose_gradient(const Vector3& psi, const Vector3& n) {
-  const InverseCoefficients k(psi.squaredNorm());
+Matrix3 inverse_transpose_gradient(const InverseCoefficients& k, const Vector3& psi, const Vector3& n) {
   const Vector3 c = psi * psi.dot(n) - n * psi.squaredNorm();
   Matrix3 g = 0.5 * skew(n) + k.b * (psi * n.transpose() - 2 * n * psi.transpose()) + k.bp * c * psi.transpose();
   g.diagonal().array() += k.b * psi.dot(n);
   return g;
 }
 
-Matrix3 inverse_transpose_hessian(const Vector3& psi, const Vector3& u, const Vector3& n) {
-  const InverseCoefficients k(psi.squaredNorm());
+Matrix3 inverse_transpose_hessian(const InverseCoefficients& k, const Vector3& psi, const Vector3& u,
+                                  const Vector3& n) {
   const double pn = psi.dot(n), pu = psi.dot(u), un = u.dot(n);
   const Vector3 c = psi * pn - n * psi.squaredNorm();
   const Vector3 w = psi * un + u * pn - 2 * n * pu;

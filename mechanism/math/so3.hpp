@@ -64,14 +64,26 @@ Matrix3 tangent_derivative(const Vector3& psi, const Vector3& u);
 /// D2T(psi)[u, w]: derivative of DT(psi)[u] along w, symmetric in u and w.
 Matrix3 tangent_second_derivative(const Vector3& psi, const Vector3& u, const Vector3& w);
 
+// The following functions take the coefficients of psi from a caller that computes several of them.
+
 /// DTinv(psi)[u]: derivative of T^-1(psi) along u = -T^-1 DT[u] T^-1, a matrix.
-Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u);
+Matrix3 tangent_inverse_derivative(const InverseCoefficients& of_psi, const Vector3& psi, const Vector3& u);
+inline Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u) {
+  return tangent_inverse_derivative(InverseCoefficients(psi.squaredNorm()), psi, u);
+}
 
 /// g(psi,n) = d(T^-T(psi) n)/dpsi, n fixed.
-Matrix3 inverse_transpose_gradient(const Vector3& psi, const Vector3& n);
+Matrix3 inverse_transpose_gradient(const InverseCoefficients& of_psi, const Vector3& psi, const Vector3& n);
+inline Matrix3 inverse_transpose_gradient(const Vector3& psi, const Vector3& n) {
+  return inverse_transpose_gradient(InverseCoefficients(psi.squaredNorm()), psi, n);
+}
 
 /// h(psi,u,n) = d(g(psi,n) u)/dpsi, n and u fixed.
-Matrix3 inverse_transpose_hessian(const Vector3& psi, const Vector3& u, const Vector3& n);
+Matrix3 inverse_transpose_hessian(const InverseCoefficients& of_psi, const Vector3& psi, const Vector3& u,
+                                  const Vector3& n);
+inline Matrix3 inverse_transpose_hessian(const Vector3& psi, const Vector3& u, const Vector3& n) {
+  return inverse_transpose_hessian(InverseCoefficients(psi.squaredNorm()), psi, u, n);
+}
 
 /// Unit quaternion (w, x, y, z) of R, w >= 0.
 Eigen::Vector4d quaternion_of(const Matrix3& R);

@@ -19,9 +19,6 @@
 namespace bielle::mechanism {
 namespace {
 
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
-
 /// Returns the flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
 Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
   const std::array<double, 3>& p = Gauss3::place;
@@ -49,6 +46,13 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
       sum += Gauss3::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
     }
   return symmetric_inverse(sum);
+}
+
+/// Returns velocities and angular velocities of the nodes, [v_A; Omega_A; v_B; Omega_B].
+Vector12 node_velocities(const LocalState& state) {
+  Vector12 v;
+  v << state.node(0).v, state.node(0).Omega, state.node(1).v, state.node(1).Omega;
+  return v;
 }
 
 /// Returns the larger eigenvalue of the flexibility for moments normal to the element [1/(N m^2)].
@@ -121,103 +125,108 @@ void BeamElement::accept(const LocalState& state, Eigen::Ref<VectorX> memory) co
   memory = psi;
 }
 
-BeamElement::Deformation BeamElement::deformation(const LocalState& state) const {
-  const NodeState &A = state.node(0), &B = state.node(1);
-  Deformation D;
-  D.R_A = A.R * R_A_;
-  D.R_B = B.R * R_B_;
-  D.d = relative_motion(state, D.R_A, D.R_B);
+BeamElement::Strain BeamElement::strain(const LocalState& state) const {
+  Strain S;
+  S.R_A = state.node(0).R * R_A_;
+  S.R_B = state.node(1).R * R_B_;
+  S.d = relative_motion(state, S.R_A, S.R_B);
+  S.eps = (S.d - d0_) / L_;
+  S.bowing = bowing_.at(S.eps);
+  S.eps.head<3>() += S.bowing.q * along_;
+  return S;
+}
+
+BeamElement::Deformation BeamElement::deformation(const LocalState& state, const Strain& strain) const {
+  Deformation D{strain, {}, Vector6::Zero(), {}};
   const Matrix6 inverse = tangent_se3_inverse(D.d);
+  const Matrix3 along = inverse.topLeftCorner<3, 3>(), across = inverse.topRightCorner<3, 3>();
   // T6^-1(-d) has the transposed blocks of T6^-1(d).
-  D.P << -inverse.topLeftCorner<3, 3>().transpose(), -inverse.topRightCorner<3, 3>().transpose(), inverse.topRows<3>(),
-      Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
-  D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
-  const Vector6 e = (D.d - d0_) / L_;
-  D.bowing = bowing_.at(e);
-  D.eps = e;
-  D.eps.head<3>() += D.bowing.q * along_;
-  D.S = D.P;
-  D.S.topRows<3>() += along_ * (D.bowing.gradient.transpose() * D.P);
-  D.epsdot = D.S * D.v / L_;
+  D.PT << -D.R_A * along, Matrix3::Zero(), -R_A_ * across, -R_A_ * along, D.R_B * along.transpose(), Matrix3::Zero(),
+      R_B_ * across.transpose(), R_B_ * along.transpose();
+  if (damping_ > 0) D.epsdot = D.of_strain(D.PT.transpose() * node_velocities(state), along_) / L_;
   D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
   return D;
 }
 
+BeamElement::Deformation BeamElement::deformation(const LocalState& state) const {
+  return deformation(state, strain(state));
+}
+
 void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Deformation D = deformation(state);
-  const Vector12 F = D.S.transpose() * D.f;
-  r.segment<3>(0) += D.R_A * F.segment<3>(0);
-  r.segment<3>(3) += R_A_ * F.segment<3>(3);
-  r.segment<3>(6) += D.R_B * F.segment<3>(6);
-  r.segment<3>(9) += R_B_ * F.segment<3>(9);
+  r.head<12>().noalias() += D.PT * D.of_motion(D.f, along_);
   if (!inertia_.is_massless()) inertia_.add_force(state, r);
 }
 
-namespace {
-
-/// Adds Q^T A Q to target, with Q = diag(U_0, U_1, U_2, U_3)^T.
-void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<MatrixX> target) {
-  for (std::size_t j = 0; j < 4; ++j) {
-    const auto column = static_cast<Eigen::Index>(3 * j);
-    const Eigen::Matrix<double, 12, 3> AQ = A.middleCols<3>(column) * U[j].transpose();
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto row = static_cast<Eigen::Index>(3 * i);
-      target.block<3, 3>(row, column).noalias() += U[i] * AQ.middleRows<3>(row);
-    }
-  }
+Matrix6 BeamElement::form_of_motion(const Matrix6& A, const Strain& strain) const {
+  const Vector6& q_gradient = strain.bowing.gradient;
+  Matrix6 form = A + (A.leftCols<3>() * along_) * q_gradient.transpose();
+  form += q_gradient * (along_.transpose() * form.topRows<3>()).eval();
+  return form;
 }
 
-}  // namespace
-
-// df/dh = C_e J P/L + C_d depsdot/dh, see below
-Eigen::Matrix<double, 6, 12> BeamElement::f_gradient(const Deformation& D) const {
-  Matrix6x12 gradient = stiffness_ * D.S / L_;
-  if (damping_ == 0) return gradient;
-  const Matrix6 bows_gradient = bowing_.second_gradient(D.bowing);
-  const Matrix6 along_d =
-      tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
-  Matrix6x12 rate_gradient = along_d * D.P;
-  for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
-  const Vector6 bows_rate = bows_gradient * (D.P * D.v) / L_;
-  rate_gradient.topRows<3>() +=
-      along_ * (D.bowing.gradient.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
-  gradient += damping_ / L_ * stiffness_ * rate_gradient;
+// With P and h = [dx_A; dTheta_A; dx_B; dTheta_B] of the nodes, P = PT^T:
+//   L depsdot/dh = J Y + (t/L) (P v)^T d2q/de2 P,
+//   Y = d(P v)/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 xdot_k~ R_k; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
+// where v_k are velocities of the section frames in their axes.
+Matrix6x12 BeamElement::rate_gradient(const LocalState& state, const Deformation& D) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  Vector6 v_A, v_B;
+  v_A << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega;
+  v_B << D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
+  const Matrix6 along_d = tangent_se3_inverse_gradient(D.d, v_B) + tangent_se3_inverse_gradient(-D.d, v_A);
+  Matrix6x12 gradient = along_d * D.PT.transpose();
+  for (int k = 0; k < 2; ++k)
+    gradient.middleCols<3>(6 * k + 3) +=
+        D.PT.middleRows<3>(6 * k).transpose() * skew(state.node(k).v) * state.node(k).R;
+  const Vector6 bows_rate = bowing_.second_gradient(D.bowing) * (D.PT.transpose() * node_velocities(state)) / L_;
+  gradient.topRows<3>() +=
+      along_ * (D.bowing.gradient.transpose() * gradient + bows_rate.transpose() * D.PT.transpose()).eval();
   return gradient;
 }
 
-// The matrices in body increments of the section frames are (12x12, F = P^T J^T f, n = t . f)
-//   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T (n/L) d2q/de2) P,
-//   C_b = P^T J^T C_d J P/L
-//   L depsdot/dh = J W + (t/L) (P v)^T d2q/de2 P,
-//   W = d(P v)/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
-// and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (section axes R_Sk, their constant orientation R_k in the
-// node):
-//   K = Q^T K_b Q, and in the blocks (x_k, Theta_k) the rotation of the force with its node, -R_Sk F_u,k~ R_k^T.
-void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
-  const Vector12 F = D.S.transpose() * D.f;
-  const Vector6 f_of_motion = D.of_motion(D.f, along_);
-  const Matrix6 bows_gradient = bowing_.second_gradient(D.bowing);
-  Matrix12x6 G;
-  G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
-  G.noalias() += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * bows_gradient);
-  // Products of this size are faster by coefficients than through Eigen's blocked kernel.
-  Matrix12 K_b = D.S.transpose().lazyProduct(f_gradient(D));
-  K_b.noalias() += G.lazyProduct(D.P);
-  add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
-  K.block<3, 3>(0, 3) -= D.R_A * skew(F.segment<3>(0)) * R_A_.transpose();
-  K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
+/// Adds A B. (Products of this size are faster by coefficients, and into a matrix of fixed size, than through Eigen's
+/// blocked kernel.)
+static void add_product(const Matrix12x6& A, const Matrix6x12& B, Eigen::Ref<MatrixX> sum) {
+  const Eigen::Matrix<double, 12, 12> product = A.lazyProduct(B);
+  sum += product;
 }
 
-// f = C (eps + J P h/L), with the step h in body increments of the section frames.
+// With P and h of the nodes, dh_k = [R_Sk^T dx; R_k^T dTheta] in section frames (section axes R_Sk, their constant
+// orientation R_k in the node), Q = diag(R_SA, R_A, R_SB, R_B), F = P^T J^T f, n = t . f:
+//   K = {P^T [J^T C_e J + n d2q/de2]/L + Q [G(-d, J^T f); G(d, J^T f)]} P + P^T J^T C_d depsdot/dh,
+//   C = P^T J^T C_d J P/L
+// and in the blocks (x_k, Theta_k) of K the rotation of the force with its node, -F_u,k~ R_k.
+void BeamElement::add_stiffness(const LocalState& state, const Deformation& D, Eigen::Ref<MatrixX> K) const {
+  const Vector6 f_of_motion = D.of_motion(D.f, along_);
+  const Vector12 F = D.PT * f_of_motion;
+  const double n = along_.dot(D.f.head<3>());
+  const Matrix6 H = (form_of_motion(stiffness_, D) + n * bowing_.second_gradient(D.bowing)) / L_;
+  Matrix12x6 X = D.PT.lazyProduct(H);
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Index x = 6 * k, Theta = x + 3;
+    const Matrix6 G = inverse_transpose_gradient_se3(k == 0 ? Vector6(-D.d) : D.d, f_of_motion);
+    X.block<3, 3>(x, 3) += (k == 0 ? D.R_A : D.R_B) * G.topRightCorner<3, 3>();
+    X.middleRows<3>(Theta) += (k == 0 ? R_A_ : R_B_) * G.bottomRows<3>();
+    K.block<3, 3>(x, Theta) -= skew(F.segment<3>(x)) * state.node(k).R;
+  }
+  add_product(X, D.PT.transpose(), K);
+  if (damping_ == 0) return;
+  Matrix6 C_d = damping_ / L_ * stiffness_;
+  C_d += D.bowing.gradient * (along_.transpose() * C_d.topRows<3>()).eval();  // J^T C_d
+  X = D.PT.lazyProduct(C_d);
+  add_product(X, rate_gradient(state, D), K);
+}
+
+// f = C (eps + J P h/L), with the step h.
 Vector6 BeamElement::predicted_resultants(const LocalState& before, const LocalState& state) const {
   const Deformation D = deformation(before);
   Vector12 h;
   for (int k = 0; k < 2; ++k) {
-    const Matrix3 &R_S = k == 0 ? D.R_A : D.R_B, &R_k = k == 0 ? R_A_ : R_B_;
-    h.segment<3>(6 * k) = R_S.transpose() * (state.node(k).x - before.node(k).x);
-    h.segment<3>(6 * k + 3) = R_k.transpose() * log_so3(before.node(k).R.transpose() * state.node(k).R);
+    h.segment<3>(6 * k) = state.node(k).x - before.node(k).x;
+    h.segment<3>(6 * k + 3) = log_so3(before.node(k).R.transpose() * state.node(k).R);
   }
-  return stiffness_ * (D.eps + D.S * h / L_);
+  return stiffness_ * (D.eps + D.of_strain(D.PT.transpose() * h, along_) / L_);
 }
 
 void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -226,20 +235,22 @@ void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) co
     Deformation D = deformation(state);
     if (const State* before = state.environment().before; before && tangent.wants_K)
       D.f = predicted_resultants(LocalState(*before, state.slots(), state.environment()), state);
-    if (tangent.wants_K) add_stiffness(D, tangent.K.dense());
+    if (tangent.wants_K) add_stiffness(state, D, tangent.K.dense());
     if (wants_damping) {
-      const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.S;
-      const Matrix12 C_b = D.S.transpose().lazyProduct(f_gradient);
-      add_rotated(C_b, {D.R_A, R_A_, D.R_B, R_B_}, tangent.C.dense());
+      const Matrix12x6 X = D.PT.lazyProduct(damping_ / L_ * form_of_motion(stiffness_, D));
+      add_product(X, D.PT.transpose(), tangent.C.dense());
     }
   }
   if (!inertia_.is_massless()) inertia_.add_tangent(state, tangent);
 }
 
 void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
-  const Deformation D = deformation(state);
-  energy.elastic += 0.5 * L_ * D.eps.dot(stiffness_ * D.eps);
-  energy.dissipation += L_ * damping_ * D.epsdot.dot(stiffness_ * D.epsdot);
+  const Strain S = strain(state);
+  energy.elastic += 0.5 * L_ * S.eps.dot(stiffness_ * S.eps);
+  if (damping_ > 0) {
+    const Vector6 epsdot = deformation(state, S).epsdot;
+    energy.dissipation += L_ * damping_ * epsdot.dot(stiffness_ * epsdot);
+  }
   if (!inertia_.is_massless()) inertia_.add_energy(state, energy);
 }
 
@@ -247,10 +258,7 @@ void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
 // (residual flexibility).
 StrainEnergies BeamElement::strain_energies(const LocalState& state, const Eigen::Ref<const VectorX>& du) const {
   const Deformation D = deformation(state);
-  Vector12 h;
-  h << D.R_A.transpose() * du.segment<3>(0), R_A_.transpose() * du.segment<3>(3), D.R_B.transpose() * du.segment<3>(6),
-      R_B_.transpose() * du.segment<3>(9);
-  const Vector6 strain = D.S * h / L_, resultants = stiffness_ * strain;
+  const Vector6 strain = D.of_strain(D.PT.transpose() * du.head<12>(), along_) / L_, resultants = stiffness_ * strain;
   const Vector6 energy = 0.5 * L_ * strain.cwiseProduct(resultants);
   return {energy[0], energy[3], energy[2] + energy[4], energy[1] + energy[5]};
 }
@@ -283,11 +291,9 @@ void BeamElement::describe(const LocalState& /*state*/, Description& description
 }
 
 BeamElement::Validity BeamElement::validity(const LocalState& state) const {
-  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_), e = (d - d0_) / L_;
-  Vector6 eps = e;
-  eps.head<3>() += bowing_.at(e).q * along_;
-  const double tension = along_.dot(stiffness_.topRows<3>() * eps);
-  return {section_.largest_strain(to_middle_ * e), L_ * std::sqrt(std::max(0.0, tension) * softness_)};
+  const Strain S = strain(state);
+  const double tension = along_.dot(stiffness_.topRows<3>() * S.eps);
+  return {section_.largest_strain(to_middle_ * (S.d - d0_) / L_), L_ * std::sqrt(std::max(0.0, tension) * softness_)};
 }
 
 std::unique_ptr<StepRecorder> BeamElement::make_step_recorder() const {

@@ -115,18 +115,24 @@ class BeamElement : public Component, public SlenderComponent {
   std::unique_ptr<StepRecorder> make_step_recorder() const override;
 
  private:
+  struct Strain;
   struct Deformation;
+  Strain strain(const LocalState& state) const;
+  Deformation deformation(const LocalState& state, const Strain& strain) const;
   Deformation deformation(const LocalState& state) const;
   /// Maps J^T f to the physical resultants in the middle; an element of constant strain has one set of resultants only.
   Matrix6 wrench_to_middle(const Deformation& D) const;
-  Eigen::Matrix<double, 6, 12> f_gradient(const Deformation& D) const;  ///< df/dh
+  /// Returns J^T A J of a symmetric matrix A.
+  Matrix6 form_of_motion(const Matrix6& A, const Strain& strain) const;
+  /// Returns L depsdot by positions of the nodes.
+  Eigen::Matrix<double, 6, 12> rate_gradient(const LocalState& state, const Deformation& D) const;
   /// Returns d at a state. @throws ComputationError if the relative rotation of the ends has passed 180 degrees since
   /// the last accepted step
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
   /// Returns the resultants that a linear step from one state to another predicts. See Environment::before.
   Vector6 predicted_resultants(const LocalState& before, const LocalState& state) const;
-  void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
+  void add_stiffness(const LocalState& state, const Deformation& D, Eigen::Ref<MatrixX> K) const;
 
   BeamPlace place_;
   std::vector<const BeamElement*> beam_;  ///< set for the first element of several

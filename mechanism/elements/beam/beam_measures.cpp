@@ -49,25 +49,17 @@ BeamElement::MiddleForces BeamElement::calc_middle_forces(const LocalState& stat
   Matrix6 motion = Matrix6::Identity();  // J^T
   motion.leftCols<3>() += D.bowing.gradient * along_.transpose();
   const double n = along_.dot(D.f.head<3>());
-  Matrix6x12 g_gradient = motion * f_gradient(D);
-  g_gradient += n / L_ * bowing_.second_gradient(D.bowing) * D.P;
+  const Matrix6x12 P = D.PT.transpose();
+  Matrix6x12 f_gradient = stiffness_ / L_ * motion.transpose() * P;
+  if (damping_ > 0) f_gradient += damping_ / L_ * stiffness_ * rate_gradient(state, D);
+  const Matrix6x12 g_gradient = motion * f_gradient + n / L_ * bowing_.second_gradient(D.bowing) * P;
   MiddleForces forces{middle * g, middle * g_gradient, Matrix6x12::Zero()};
   if (bending_ == BeamBending::residual) {
     const Matrix6 transfer = adjoint(exp_se3(-0.5 * D.d)).transpose() * inverse_transpose_gradient_se3(D.d, g) -
                              0.5 * transferred_gradient(forces.value) * tangent_se3(-0.5 * D.d);
-    forces.by_position += transfer * D.P;
+    forces.by_position += transfer * P;
   }
-  if (damping_ > 0) {
-    const Matrix6 by_strain_rate = damping_ / L_ * middle * motion * stiffness_;
-    forces.by_rate = by_strain_rate * D.S;
-  }
-  // Body increments of the section frames are R_S^T dx and R_k^T dTheta.
-  const std::array<Matrix3, 4> U{D.R_A, R_A_, D.R_B, R_B_};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto column = static_cast<Eigen::Index>(3 * k);
-    for (Matrix6x12* part : {&forces.by_position, &forces.by_rate})
-      part->middleCols<3>(column) = (part->middleCols<3>(column) * U[k].transpose()).eval();
-  }
+  if (damping_ > 0) forces.by_rate = damping_ / L_ * middle * motion * stiffness_ * motion.transpose() * P;
   return forces;
 }
 

@@ -113,14 +113,13 @@ std::string VelocityCorrection::caution(const SchemeStep& step) {
   // the linearised equations as well.
   const double most = (form_ == ConstraintForm::stabilised ? 7 : 1) * step.scheme().most_turn();
   const double time = step.state().time;
-  const std::string turns =
-      fmt::format("t = {:.6g} s: a joint turns by {:.2g} rad in a step of {:.3g} s", time, turn_, step.size());
   constexpr double none = 1e-6;
   if (form_ != ConstraintForm::corrected && turn_ > std::max(most, none))
     return fmt::format(
-        "{}; with this scheme and form of constraints, errors of joint forces may grow from {:.2g} rad on: take "
-        "smaller steps, or `constraints: corrected` (the default)",
-        turns, most);
+        "t = {:.6g} s: a joint turns by {:.2g} rad in a step of {:.3g} s; with this scheme and form of constraints, "
+        "errors of joint forces may grow from {:.2g} rad on: take smaller steps, or `constraints: corrected` (the "
+        "default)",
+        time, turn_, step.size(), most);
   constexpr double tolerable = 0.01;
   const auto lag = [&](double turn) { return -step.scheme().position_error() * turn * turn; };
   if (lag(turn_) > tolerable) {

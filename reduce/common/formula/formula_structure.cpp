@@ -29,7 +29,16 @@ void FormulaTree::fold(int index) {
   if (t.operation == Operation::constant || t.operation == Operation::argument) return;
   if (t.operation == Operation::select) {
     fold(t.operand[0]);
-    if (depends_on_arguments(t.operand[0])) return;  // a branch that is never taken may have no value
+    if (depends_on_arguments(t.operand[0])) {
+      for (const std::size_t branch : {1U, 2U}) {
+        try {
+          fold(t.operand[branch]);
+        } catch (const FormulaError&) {
+          // A branch that is never taken may have no value.
+        }
+      }
+      return;
+    }
     const Term& condition = term(t.operand[0]);
     const int taken = condition.number != 0 ? t.operand[1] : t.operand[2];
     fold(taken);
