@@ -25,7 +25,7 @@ void for_each_entry(const Sparse& A, const Act& act) {
 class GroupSizes {
  public:
   GroupSizes(const Sparse& K, const Sparse& B, const std::vector<int>& group)
-      : K_(K), B_(B), group_(group), sizes_(VectorX::Zero(group.empty() ? 0 : group.back() + 1)) {}
+      : K_(K), B_(B), group_(group), sizes_(VectorX::Zero(group.empty() ? K.rows() : group.back() + 1)) {}
 
   VectorX run() {
     const VectorX diagonal = K_.diagonal();
@@ -42,7 +42,7 @@ class GroupSizes {
   }
 
  private:
-  int group_of(int unknown) const { return group_[static_cast<std::size_t>(unknown)]; }
+  int group_of(int unknown) const { return group_.empty() ? unknown : group_[static_cast<std::size_t>(unknown)]; }
   void raise(VectorX& sizes, int unknown, double size) const {
     double& most = sizes[group_of(unknown)];
     most = std::max(most, size);

@@ -27,7 +27,8 @@ namespace bielle::mechanism {
 /// Returns the sizes (n) > 0 of the diagonal entries: the largest in the unknown's group. A group without diagonal
 /// entries (a rigid body has no stiffness itself) takes its size from its coupling K_ij^2/s_j to other groups,
 /// otherwise from the groups that rows of B couple it to, otherwise 1.
-/// @param group  group of each unknown, ascending from 0
+/// @param group  group of each unknown, from 0, that of the last unknown being the largest; empty: every unknown is a
+/// group of its own
 VectorX group_sizes(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& B,
                     const std::vector<int>& group);
 

@@ -43,6 +43,7 @@ TEST_CASE("negative directions are those of K on the null space of B, in any uni
     const MatrixX allowed = Q.rightCols(n - m);
     const VectorX exact = bielle::symmetric_eigenpairs(allowed.transpose() * K * allowed).values;
     const int negative = static_cast<int>((exact.array() < 0).count());
+    CHECK(count(K, B, {}) == count(K, B));
     CHECK(count(K, B) == negative);
     for (const double unit : {1e-6, 1e6}) {
       VectorX units = VectorX::Ones(n);
