@@ -279,6 +279,15 @@ void SparseFactors<Scalar>::solve(Eigen::Ref<Vector> b) const {
   b.array() *= factors_->right.array();
 }
 
+template <class Scalar>
+void SparseFactors<Scalar>::solve_columns(Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& B) const {
+  if (B.size() == 0) return;
+  B.array().colwise() *= factors_->left.array().template cast<Scalar>();
+  Klu<Scalar>::solve(factors_->symbolic, factors_->numeric, pattern_.size(), static_cast<int>(B.cols()),
+                     numbers(B.data()), &factors_->common);
+  B.array().colwise() *= factors_->right.array().template cast<Scalar>();
+}
+
 namespace {
 
 /// Returns the sign of a permutation.

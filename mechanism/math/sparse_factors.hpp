@@ -53,6 +53,8 @@ class SparseFactors {
   void forget();
   /// b <- A^-1 b. Call it only after a successful factorisation.
   void solve(Eigen::Ref<Vector> b) const;
+  /// B <- A^-1 B for several columns, which takes less time than one by one.
+  void solve_columns(Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& B) const;
   /// Column (an unknown) at which the last factorisation found no pivot, or -1.
   int singular_column() const { return singular_column_; }
   /// Sign of the determinant of the last factorised matrix: -1 or 1. Its rows must be scaled by positive numbers.

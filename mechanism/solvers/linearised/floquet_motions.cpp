@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
+#include "mechanism/solvers/linearised/orthonormal.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/linearised/turn_integration.hpp"
 #include "reduce/common/error.hpp"
@@ -29,6 +31,7 @@ class MonodromySearch {
       : equations_(equations),
         turn_(equations, steps_of(equations, fastest, angle)),
         harmonics_(static_cast<int>(std::ceil(fastest / std::abs(equations.rate()))) + spread),
+        scale_(ShiftedOperator(equations.first(), std::abs(equations.rate())).scale()),
         weights_(shapes.weights(fastest, 0)) {}
 
   std::vector<FloquetMotion> run() {
@@ -50,10 +53,29 @@ class MonodromySearch {
     return static_cast<int>(std::max(least, steps));
   }
 
+  /// Returns scaled states after a turn.
+  MatrixX after_turn(const MatrixX& states) const {
+    return scale_.cwiseInverse().asDiagonal() * turn_.after_turn(scale_.asDiagonal() * states);
+  }
+
+  /// Returns an orthonormal basis of scaled states that contains all that is left after a turn. Most motions of large
+  /// equations are too fast for the steps: the turn leaves few directions of random states (N. Halko, P. G. Martinsson,
+  /// J. A. Tropp, SIAM Rev. 53 (2011) 217).
+  MatrixX remaining_states() const {
+    const Eigen::Index states = scale_.size();
+    constexpr Eigen::Index first = 160, spare = 16;
+    std::mt19937 random(1);  // the results are the same in each run
+    for (Eigen::Index count = first; 2 * count < states; count *= 2) {
+      const MatrixX some = MatrixX::NullaryExpr(states, count, [&] { return random() / 2147483648.0 - 1; });
+      const MatrixX basis = leading_directions(after_turn(some), count);
+      if (basis.cols() + spare <= count) return basis;
+    }
+    return MatrixX::Identity(states, states);
+  }
+
   /// Returns one eigenvector of each conjugate pair.
   std::vector<Start> eigenvectors() const {
-    const VectorX scale = ShiftedOperator(equations_.first(), std::abs(equations_.rate())).scale();
-    const MatrixX after = scale.cwiseInverse().asDiagonal() * turn_.after_turn(MatrixX(scale.asDiagonal()));
+    const MatrixX basis = remaining_states(), after = basis.transpose() * after_turn(basis);
     OperatorEigenOptions options;
     options.dense = after.cols();
     const OperatorEigenpairs pairs =
@@ -64,7 +86,8 @@ class MonodromySearch {
     for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
       const Complex mu = pairs.values[k];
       if (std::abs(mu) < rounding || mu.imag() < 0) continue;
-      starts.push_back({std::log(mu) / turn_.duration(), scale.cast<Complex>().cwiseProduct(pairs.vectors.col(k))});
+      const Eigen::VectorXcd state = basis.cast<Complex>() * pairs.vectors.col(k);
+      starts.push_back({std::log(mu) / turn_.duration(), scale_.cast<Complex>().cwiseProduct(state)});
     }
     return starts;
   }
@@ -108,7 +131,8 @@ class MonodromySearch {
   const PeriodicEquations& equations_;
   TurnIntegration turn_;
   int harmonics_;
-  VectorX weights_;
+  VectorX scale_;    ///< of states
+  VectorX weights_;  ///< of unknowns
   std::vector<FloquetMotion> found_;
 };
 
@@ -206,9 +230,9 @@ std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equation
     const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
     const auto count = options.below ? std::count_if(principal.modes.begin(), principal.modes.end(), slow)
                                      : static_cast<std::ptrdiff_t>(options.count);
-    if (static_cast<std::ptrdiff_t>(principal.modes.size()) < count) return std::nullopt;
     result.harmonics = known.harmonics;
-    for (auto each = principal.modes.begin(); each != principal.modes.begin() + count; ++each) {
+    const auto end = principal.modes.begin() + std::min(count, static_cast<std::ptrdiff_t>(principal.modes.size()));
+    for (auto each = principal.modes.begin(); each != end; ++each) {
       result.harmonics = std::max(result.harmonics, harmonics_of(shapes, each->u, each->mode.s));
       result.modes.push_back(*each);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -311,7 +312,9 @@ std::optional<HarmonicModes> HarmonicSearch::motions_over_turn(const ModeOptions
   if (!modes) return std::nullopt;
   judge_modes(*modes, options);
   modes->all = is_complete(*modes);
-  return modes;
+  const bool enough =
+      options.below || std::count_if(modes->modes.begin(), modes->modes.end(), std::not_fn(is_rigid)) >= options.count;
+  return enough || modes->all ? modes : std::nullopt;
 }
 
 /// The search with a number of harmonics finds all copies, and misses motions with more harmonics: it serves rotors for

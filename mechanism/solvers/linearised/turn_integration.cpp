@@ -102,7 +102,7 @@ class StepEquations {
       for (int k = 0; k < m; ++k)
         if (at.nonholonomic[static_cast<std::size_t>(k)] != 0) right.row(i * size + n + k) = moved.row(k);
     }
-    for (Eigen::Index k = 0; k < right.cols(); ++k) factors_->solve(right.col(k));
+    factors_->solve_columns(right);
     const MatrixX last = right.middleRows((stages - 1) * size, n);
     MatrixX rates = e[0].W * last - g_[stages - 1] * u;
     for (int j = 0; j < stages; ++j) rates += D_(stages - 1, j) * right.middleRows(j * size, n);
