@@ -240,11 +240,12 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
              "  the equations are constant in multiblade coordinates (the rotor is the same in all directions): "
              "frequencies are those seen from what stands still\n";
     default:
-      return text + fmt::format(
-                        "  the equations are periodic in any axes: Floquet exponents with {} harmonics of the rotation, "
-                        "accurate to about {:.1g}; frequencies that differ by multiples of the rate belong to the "
-                        "same motion\n",
-                        turning.harmonics, turning.change);
+      return text +
+             fmt::format(
+                 "  the equations are periodic in any axes: Floquet exponents with {} harmonics of the rotation, "
+                 "accurate to about {:.1g}; frequencies that differ by multiples of the rate belong to the "
+                 "same motion\n",
+                 turning.harmonics, turning.change);
   }
 }
 

@@ -131,8 +131,8 @@ class MonodromySearch {
   const PeriodicEquations& equations_;
   TurnIntegration turn_;
   int harmonics_;
-  VectorX scale_;    ///< of states
-  VectorX weights_;  ///< of unknowns
+  VectorX scale_;    ///< (states)
+  VectorX weights_;  ///< (unknowns)
   std::vector<FloquetMotion> found_;
 };
 

@@ -22,7 +22,8 @@ struct FloquetMotion {
 
 /// Finds the motions, one of each conjugate pair, without those that vanish in a turn and those that are too fast.
 /// @param fastest  rate up to which motions are resolved [rad/s]
-/// @param angle  of such a motion in a step [rad]: its exponent has a relative error of 1.4e-4 angle^5
+/// @param angle  phase by which such a motion advances in a step [rad]: its exponent has a relative error of 1.4e-4
+/// angle^5
 /// @throws ComputationError if the equations of a step are singular, or a turn has too many steps
 std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                            double fastest, double angle);

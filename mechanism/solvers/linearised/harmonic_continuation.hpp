@@ -26,7 +26,7 @@ struct HarmonicMode {
 struct HarmonicModes {
   Periodicity periodicity = Periodicity::constant;
   int harmonics = 0;              ///< h
-  double change = 0;              ///< largest change of an exponent by further harmonics or smaller steps, relative to the rates
+  double change = 0;              ///< largest change of an exponent by more harmonics or smaller steps, relative
   LinearisedEquations equations;  ///< equations of the harmonics
   std::vector<HarmonicMode> modes;
   bool all = false;                      ///< there are no others

@@ -6,10 +6,10 @@
 // as many as the rate is contained in the change of a frequency over a turn.
 //
 // About a periodic motion of equal blades the modes are continued from those about its mean state, which one harmonic
-// of the rotation contains, or chosen among all motions by their shapes (modes_around_mean.hpp). The exponent that represents a motion
-// is then the one into which that of the mean state goes over. At a rate so slow that the limit of harmonics does not
-// contain the modulation of a frequency over a turn, a motion has no line of its own but a band, whose middle is the
-// frequency about the mean state: the modes are those of the mean equations there.
+// of the rotation contains, or chosen among all motions by their shapes (modes_around_mean.hpp). The exponent that
+// represents a motion is then the one into which that of the mean state goes over. At a rate so slow that the limit of
+// harmonics does not contain the modulation of a frequency over a turn, a motion has no line of its own but a band,
+// whose middle is the frequency about the mean state: the modes are those of the mean equations there.
 #pragma once
 
 #include <memory>

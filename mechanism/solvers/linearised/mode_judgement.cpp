@@ -16,8 +16,8 @@ Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a
 
 }  // namespace
 
-/// Returns the left vector. For general equations it is computed only for modes that grow by more than the drift allows,
-/// since it costs a factorisation.
+/// Returns the left vector. For general equations it is computed only for modes that grow by more than the drift
+/// allows, since it costs a factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
   if (symmetry_ == EquationSymmetry::symmetric) return mode.u;

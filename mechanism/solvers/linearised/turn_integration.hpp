@@ -21,7 +21,7 @@ class TurnIntegration {
   TurnIntegration(const PeriodicEquations& equations, int steps);
 
   int steps() const { return steps_; }
-  double duration() const;  ///< of a turn [s]
+  double duration() const;  ///< time of a turn [s]
   /// Receives the number of a step, 0 .. steps - 1, and the states at its begin.
   using Observer = std::function<void(int step, const MatrixX& states)>;
   /// Returns the states after a turn that begins at azimuth 0. States that violate the constraints are projected by the
