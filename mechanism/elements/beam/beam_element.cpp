@@ -55,6 +55,13 @@ Vector12 node_velocities(const LocalState& state) {
   return v;
 }
 
+/// Adds A B. (Products of this size are faster by coefficients, and into a matrix of fixed size, than through Eigen's
+/// blocked kernel.)
+void add_product(const Matrix12x6& A, const Matrix6x12& B, Eigen::Ref<MatrixX> sum) {
+  const Eigen::Matrix<double, 12, 12> product = A.lazyProduct(B);
+  sum += product;
+}
+
 /// Returns the larger eigenvalue of the flexibility for moments normal to the element [1/(N m^2)].
 double softness_across(const Matrix6& flexibility, const Vector3& along) {
   const Matrix3 across = Matrix3::Identity() - along * along.transpose();
@@ -183,13 +190,6 @@ Matrix6x12 BeamElement::rate_gradient(const LocalState& state, const Deformation
   gradient.topRows<3>() +=
       along_ * (D.bowing.gradient.transpose() * gradient + bows_rate.transpose() * D.PT.transpose()).eval();
   return gradient;
-}
-
-/// Adds A B. (Products of this size are faster by coefficients, and into a matrix of fixed size, than through Eigen's
-/// blocked kernel.)
-static void add_product(const Matrix12x6& A, const Matrix6x12& B, Eigen::Ref<MatrixX> sum) {
-  const Eigen::Matrix<double, 12, 12> product = A.lazyProduct(B);
-  sum += product;
 }
 
 // With P and h of the nodes, dh_k = [R_Sk^T dx; R_k^T dTheta] in section frames (section axes R_Sk, their constant

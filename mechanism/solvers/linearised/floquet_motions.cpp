@@ -17,6 +17,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double least_multiplier = 1e-10;  ///< rounding leaves smaller ones no digits
+
 double duration_of(double rate) { return 2 * std::numbers::pi / std::abs(rate); }
 
 /// Eigenvector of the monodromy matrix.
@@ -36,7 +38,9 @@ class MonodromySearch {
 
   std::vector<FloquetMotion> run() {
     const std::vector<Start> starts = eigenvectors();
-    constexpr std::size_t together = 64;  // bounds the memory for amplitudes
+    constexpr double amplitudes = 1 << 25;  // half a gigabyte
+    const double of_one = static_cast<double>(scale_.size()) * (2 * harmonics_ + 1);
+    const auto together = static_cast<std::size_t>(std::max(1.0, std::min(64.0, amplitudes / of_one)));
     for (std::size_t k = 0; k < starts.size(); k += together)
       take({starts.begin() + static_cast<std::ptrdiff_t>(k),
             starts.begin() + static_cast<std::ptrdiff_t>(std::min(k + together, starts.size()))});
@@ -47,10 +51,12 @@ class MonodromySearch {
   static constexpr int spread = 24;  ///< further harmonics of the fastest motions
 
   static int steps_of(const PeriodicEquations& equations, double fastest, double angle) {
-    constexpr double least = 64, most = 8000;
-    const double steps = std::ceil(fastest * duration_of(equations.rate()) / angle);
-    if (steps > most) throw ComputationError("a turn has too many steps for its monodromy matrix");
-    return static_cast<int>(std::max(least, steps));
+    constexpr double least = 64, most = 8000, most_work = 2e6;
+    const double steps =
+        std::max(least, fastest * duration_of(equations.rate()) / coarse_angle) * (coarse_angle / angle);
+    if (steps > std::min(most, most_work / equations.first().states()))
+      throw ComputationError("a turn has too many steps for its monodromy matrix");
+    return static_cast<int>(std::ceil(steps));
   }
 
   /// Returns scaled states after a turn.
@@ -67,7 +73,7 @@ class MonodromySearch {
     std::mt19937 random(1);  // the results are the same in each run
     for (Eigen::Index count = first; 2 * count < states; count *= 2) {
       const MatrixX some = MatrixX::NullaryExpr(states, count, [&] { return random() / 2147483648.0 - 1; });
-      const MatrixX basis = leading_directions(after_turn(some), count);
+      const MatrixX basis = orthonormal_columns(after_turn(some));
       if (basis.cols() + spare <= count) return basis;
     }
     return MatrixX::Identity(states, states);
@@ -81,11 +87,13 @@ class MonodromySearch {
     const OperatorEigenpairs pairs =
         largest_eigenpairs(LinearOperator<double>{after.cols(), [&](const VectorX& x) { return VectorX(after * x); }},
                            after.cols(), options);
-    constexpr double rounding = 1e-6;
+    constexpr double most = 1e4;
+    if (pairs.values.cwiseAbs().maxCoeff() > most)
+      throw ComputationError("a motion grows so much in a turn that nothing is known of the others");
     std::vector<Start> starts;
     for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
       const Complex mu = pairs.values[k];
-      if (std::abs(mu) < rounding || mu.imag() < 0) continue;
+      if (std::abs(mu) < least_multiplier || mu.imag() < 0) continue;
       const Eigen::VectorXcd state = basis.cast<Complex>() * pairs.vectors.col(k);
       starts.push_back({std::log(mu) / turn_.duration(), scale_.cast<Complex>().cwiseProduct(state)});
     }
@@ -136,24 +144,27 @@ class MonodromySearch {
   std::vector<FloquetMotion> found_;
 };
 
-/// Returns a rate that includes the motions that are asked for, by the mean equations; nothing if one of them vanishes
-/// in a turn.
-std::optional<double> fastest_rate_of(const PeriodicEquations& equations, const ModeOptions& options) {
+/// Returns a rate that includes the motions that are asked for, by the mean equations.
+double fastest_rate_of(const PeriodicEquations& equations, const ModeOptions& options) {
   constexpr double further = 1.3;
   constexpr int more = 4;
   ModeOptions mean = options;
   mean.count += more;
   if (mean.below) *mean.below *= further;
   double fastest = 0;
-  for (const Mode& mode : find_modes(equations.of_harmonics(0), mean).modes) {
-    if (vanishes_in_turn(mode.s, equations.rate())) return std::nullopt;
-    fastest = std::max(fastest, std::abs(mode.s));
-  }
+  for (const Mode& mode : find_modes(equations.of_harmonics(0), mean).modes)
+    if (!vanishes_in_turn(mode.s, equations.rate())) fastest = std::max(fastest, std::abs(mode.s));
   if (mean.below) fastest = std::max(fastest, 2 * std::numbers::pi * *mean.below);
   return std::max(further * fastest, std::abs(equations.rate()));
 }
 
-/// The principal exponents up to a rate, the slowest first, and the number of those that may be zero.
+void sort_by_size(std::vector<HarmonicMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
+    return std::abs(a.mode.s) < std::abs(b.mode.s);
+  });
+}
+
+/// The principal exponents up to a rate, and the number of those that may be zero.
 struct PrincipalModes {
   std::vector<HarmonicMode> modes;
   int near_zero = 0;
@@ -175,9 +186,6 @@ PrincipalModes principal_modes(std::vector<FloquetMotion> motions, const Harmoni
     const double whirl = shapes.whirl(shapes.sizes(u, s));
     result.modes.push_back({std::move(mode), std::move(u), std::move(w), whirl});
   }
-  std::stable_sort(result.modes.begin(), result.modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
-    return std::abs(a.mode.s) < std::abs(b.mode.s);
-  });
   return result;
 }
 
@@ -188,10 +196,7 @@ std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, c
   return MonodromySearch(equations, shapes, fastest, angle).run();
 }
 
-bool vanishes_in_turn(Complex s, double rate) {
-  constexpr double most = 10;  // logarithm of the decay
-  return -s.real() * duration_of(rate) > most;
-}
+bool vanishes_in_turn(Complex s, double rate) { return std::exp(s.real() * duration_of(rate)) < least_multiplier; }
 
 int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Complex s) {
   constexpr double rest = 1e-10;
@@ -216,10 +221,12 @@ std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equation
   if (options.near) return std::nullopt;
   constexpr int most_harmonics = 42;
   try {
-    const std::optional<double> fastest = fastest_rate_of(equations, options);
-    if (!fastest) return std::nullopt;
-    const PrincipalModes principal =
-        principal_modes(floquet_motions(equations, shapes, *fastest, coarse_angle), shapes, equations.rate(), *fastest);
+    const double fastest = fastest_rate_of(equations, options);
+    PrincipalModes principal =
+        principal_modes(floquet_motions(equations, shapes, fastest, coarse_angle), shapes, equations.rate(), fastest);
+    for (const HarmonicMode& each : known.modes)
+      if (vanishes_in_turn(each.mode.s, equations.rate())) principal.modes.push_back(each);
+    sort_by_size(principal.modes);
     HarmonicModes result;
     result.states = known.states;
     result.growing_besides = known.growing_besides;

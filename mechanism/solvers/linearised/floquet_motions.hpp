@@ -24,7 +24,8 @@ struct FloquetMotion {
 /// @param fastest  rate up to which motions are resolved [rad/s]
 /// @param angle  phase by which such a motion advances in a step [rad]: its exponent has a relative error of 1.4e-4
 /// angle^5
-/// @throws ComputationError if the equations of a step are singular, or a turn has too many steps
+/// @throws ComputationError if the equations of a step are singular, a turn has too many steps, or a motion grows by a
+/// factor of 1e4 in it
 std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                            double fastest, double angle);
 
@@ -40,9 +41,9 @@ int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, std::c
 Eigen::MatrixXcd within(const Eigen::MatrixXcd& amplitudes, int h);
 
 /// Finds the slowest motions besides the rigid ones, with as many harmonics as they need.
-/// @param known  modes with few harmonics, whose rigid modes are taken over
-/// @returns nothing if some of these motions may be missing: they decay so fast that nothing is left of them after a
-/// turn, or there are slow motions next to rigid ones, or the rotation is so slow that a turn has too many steps
+/// @param known  modes with few harmonics, from which rigid modes and motions that vanish in a turn are taken
+/// @returns nothing if the monodromy matrix does not show the motions (floquet_motions), or if there are slow motions
+/// next to rigid ones
 std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                                const HarmonicModes& known, const ModeOptions& options);
 

@@ -232,7 +232,10 @@ std::optional<HarmonicModes> HarmonicSearch::converged(HarmonicModes modes, int 
   while (true) {
     const int h = modes.harmonics, more = next_harmonics(h);
     modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
-    if (h == 1 && are_exact(equations_, modes, exact)) return modes;
+    if (h == 1 && are_exact(equations_, modes, exact)) {
+      modes.change = 0;
+      return modes;
+    }
     if (more > most) return std::nullopt;
     std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, Copies::continued);
     if (!next) return std::nullopt;
@@ -259,6 +262,9 @@ std::optional<HarmonicModes> HarmonicSearch::motions_over_turn_from(const Harmon
   if (next_harmonics(found->harmonics) <= most)
     if (auto next = continue_modes(equations_, shapes_, *found, found->harmonics, Copies::continued))
       if (auto modes = converged(*std::move(next), most)) return modes;
+  if (std::any_of(mean.modes.begin(), mean.modes.end(),
+                  [&](const HarmonicMode& each) { return vanishes_in_turn(each.mode.s, equations_.rate()); }))
+    return std::nullopt;
   constexpr int most_harmonics = 64;
   constexpr double finer = 3, gain = 243;  // the order is five
   std::optional<HarmonicModes> fine = find_modes_over_turn(equations_, shapes_, mean, coarse_angle / finer);

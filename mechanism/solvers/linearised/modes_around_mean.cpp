@@ -41,6 +41,8 @@ class SearchAround {
         add_copies({std::conj(each.s), each.u.rowwise().reverse().conjugate(), each.w.rowwise().reverse().conjugate()},
                    copies);
     }
+    for (std::size_t k = 0; k < mean_.modes.size(); ++k)
+      if (vanishes_in_turn(mean_.modes[k].mode.s, periodic_.rate())) take_from_mean(k);
     take(copies, [](std::size_t) { return least; });
     if (std::any_of(of_mean_.begin(), of_mean_.end(), [](int at) { return at < 0; })) return std::nullopt;
     return sorted();
@@ -55,6 +57,13 @@ class SearchAround {
 
   static constexpr double most = 0.5;   ///< a motion with a larger share of a shape is the only one
   static constexpr double least = 0.1;  ///< share of a shape that a motion needs to represent it
+
+  void take_from_mean(std::size_t k) {
+    of_mean_[k] = static_cast<int>(found_.modes.size());
+    found_.modes.push_back(mean_.modes[k]);
+    found_.modes.back().u = within(mean_.modes[k].u, found_.harmonics);
+    found_.modes.back().w = within(mean_.modes[k].w, found_.harmonics);
+  }
 
   HarmonicModes sorted() {
     std::vector<HarmonicMode> modes;
@@ -174,10 +183,8 @@ std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equat
                                                   const HarmonicModes& mean, double angle) {
   constexpr double further = 1.1;
   double fastest = std::abs(equations.rate());
-  for (const HarmonicMode& each : mean.modes) {
-    if (vanishes_in_turn(each.mode.s, equations.rate())) return std::nullopt;
-    fastest = std::max(fastest, further * std::abs(each.mode.s));
-  }
+  for (const HarmonicMode& each : mean.modes)
+    if (!vanishes_in_turn(each.mode.s, equations.rate())) fastest = std::max(fastest, further * std::abs(each.mode.s));
   try {
     const std::vector<FloquetMotion> motions = floquet_motions(equations, shapes, fastest, angle);
     if (motions.empty()) return std::nullopt;

@@ -16,8 +16,9 @@ std::optional<HarmonicModes> find_modes_around(const PeriodicEquations& equation
                                                const HarmonicModes& mean, int harmonics);
 
 /// Finds the same among the motions that the monodromy matrix shows (floquet_motions.hpp), with as many harmonics as
-/// they need, and without the equations of these.
-/// @param angle  as for floquet_motions @returns nothing also if a mode of the mean equations vanishes in a turn
+/// they need, and without the equations of these. Modes of the mean equations that vanish in a turn are returned as
+/// they are.
+/// @param angle  as for floquet_motions
 std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                                   const HarmonicModes& mean, double angle);
 
