@@ -198,8 +198,11 @@ std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, c
 
 bool vanishes_in_turn(Complex s, double rate) { return std::exp(s.real() * duration_of(rate)) < least_multiplier; }
 
-int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Complex s) {
-  constexpr double rest = 1e-10;
+int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Complex s, double rate) {
+  // Parts of slower motions that rounding leaves in a motion outgrow it over the turn.
+  constexpr double least = 1e-5, most = 0.1, others = 1e-11;
+  const double grown = others * std::exp(-s.real() * duration_of(rate)),
+               rest = std::pow(std::min(std::max(least, grown), most), 2);
   const HarmonicSizes sizes = shapes.sizes(u, s);
   const VectorX both = sizes.standing + sizes.turning;
   const auto middle = static_cast<int>(both.size() / 2);
@@ -240,7 +243,7 @@ std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equation
     result.harmonics = known.harmonics;
     const auto end = principal.modes.begin() + std::min(count, static_cast<std::ptrdiff_t>(principal.modes.size()));
     for (auto each = principal.modes.begin(); each != end; ++each) {
-      result.harmonics = std::max(result.harmonics, harmonics_of(shapes, each->u, each->mode.s));
+      result.harmonics = std::max(result.harmonics, harmonics_of(shapes, each->u, each->mode.s, equations.rate()));
       result.modes.push_back(*each);
     }
     if (result.harmonics > most_harmonics) return std::nullopt;

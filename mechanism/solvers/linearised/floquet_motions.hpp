@@ -35,7 +35,7 @@ constexpr double coarse_angle = 0.4;  ///< sufficient as a start for continue_mo
 bool vanishes_in_turn(std::complex<double> s, double rate);
 
 /// Returns the number of harmonics within which nearly everything of a motion lies.
-int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, std::complex<double> s);
+int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, std::complex<double> s, double rate);
 
 /// Returns the amplitudes of the harmonics -h .. h, zeros for those that are not given.
 Eigen::MatrixXcd within(const Eigen::MatrixXcd& amplitudes, int h);

@@ -311,16 +311,26 @@ HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOpt
 }
 
 /// @param known  modes with few harmonics @returns the motions that the monodromy matrix shows, with their harmonics
-std::optional<HarmonicModes> HarmonicSearch::motions_over_turn(const ModeOptions& options,
-                                                               const HarmonicModes& known) const {
-  std::optional<HarmonicModes> modes = find_by_monodromy(equations_, shapes_, known, options);
-  if (modes) modes = continue_modes(equations_, shapes_, *modes, modes->harmonics, Copies::largest);
-  if (!modes) return std::nullopt;
-  judge_modes(*modes, options);
-  modes->all = is_complete(*modes);
-  const bool enough =
-      options.below || std::count_if(modes->modes.begin(), modes->modes.end(), std::not_fn(is_rigid)) >= options.count;
-  return enough || modes->all ? modes : std::nullopt;
+std::optional<HarmonicModes> HarmonicSearch::motions_over_turn(const ModeOptions& options, HarmonicModes known) const {
+  const auto moving = [](const HarmonicModes& modes) {
+    return std::count_if(modes.modes.begin(), modes.modes.end(), std::not_fn(is_rigid));
+  };
+  // Motions that vanish in a turn are among the known ones: these must be so many that all are there.
+  constexpr int tries = 3;
+  ModeOptions wider = options;
+  for (int k = 0; k < tries; ++k) {
+    std::optional<HarmonicModes> modes = find_by_monodromy(equations_, shapes_, known, options);
+    if (modes) modes = continue_modes(equations_, shapes_, *modes, modes->harmonics, Copies::largest);
+    if (!modes) return std::nullopt;
+    modes->all = is_complete(*modes);
+    if (options.below || moving(*modes) >= options.count || modes->all) {
+      judge_modes(*modes, options);
+      return modes;
+    }
+    wider.count *= 2;
+    known = find_with(wider, known.harmonics);
+  }
+  return std::nullopt;
 }
 
 /// The search with a number of harmonics finds all copies, and misses motions with more harmonics: it serves rotors for

@@ -38,7 +38,7 @@ class HarmonicSearch {
 
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
-  std::optional<HarmonicModes> motions_over_turn(const ModeOptions& options, const HarmonicModes& known) const;
+  std::optional<HarmonicModes> motions_over_turn(const ModeOptions& options, HarmonicModes known) const;
   HarmonicModes find_freely(const ModeOptions& options, int least) const;
   HarmonicModes find_resonant(const ModeOptions& options, int least) const;
   std::optional<HarmonicModes> motions_over_turn_from(const HarmonicModes& mean, int most) const;

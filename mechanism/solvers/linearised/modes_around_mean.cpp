@@ -193,7 +193,7 @@ std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equat
     if (!found) return std::nullopt;
     found->harmonics = 1;
     for (const HarmonicMode& each : found->modes)
-      found->harmonics = std::max(found->harmonics, harmonics_of(shapes, each.u, each.mode.s));
+      found->harmonics = std::max(found->harmonics, harmonics_of(shapes, each.u, each.mode.s, equations.rate()));
     for (HarmonicMode& each : found->modes) {
       each.u = within(each.u, found->harmonics);
       each.w = within(each.w, found->harmonics);
