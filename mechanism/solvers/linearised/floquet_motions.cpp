@@ -200,7 +200,7 @@ bool vanishes_in_turn(Complex s, double rate) { return std::exp(s.real() * durat
 
 int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Complex s, double rate) {
   // Parts of slower motions that rounding leaves in a motion outgrow it over the turn.
-  constexpr double least = 1e-5, most = 0.1, others = 1e-11;
+  constexpr double least = 1e-5, most = 0.1, others = 1e-9;
   const double grown = others * std::exp(-s.real() * duration_of(rate)),
                rest = std::pow(std::min(std::max(least, grown), most), 2);
   const HarmonicSizes sizes = shapes.sizes(u, s);
