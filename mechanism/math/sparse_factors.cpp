@@ -219,7 +219,7 @@ void SparseFactors<Scalar>::forget() {
 /// Returns whether a range contains a nonzero value. It combines the bits of many values at a time.
 template <class Scalar>
 bool SparseFactors<Scalar>::any_in(const std::vector<Scalar>& values, const Range& range) {
-  constexpr std::size_t parts = sizeof(Scalar) / sizeof(double);
+  constexpr std::size_t parts = std::is_same_v<Scalar, double> ? 1 : 2;
   const auto* number = reinterpret_cast<const double*>(values.data());
   const std::size_t end = parts * static_cast<std::size_t>(range.end);
   std::uint64_t bits = 0;

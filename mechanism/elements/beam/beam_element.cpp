@@ -107,7 +107,7 @@ void BeamElement::declare(Declaration& declaration) const {
 }
 
 Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
-  const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
+  Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
   // The logarithm jumps to the opposite rotation at 180 degrees.
   if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
     refuse(state, "its ends have turned past 180 degrees against each other", ", or take smaller steps");

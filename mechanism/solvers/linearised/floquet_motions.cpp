@@ -73,7 +73,7 @@ class MonodromySearch {
     std::mt19937 random(1);  // the results are the same in each run
     for (Eigen::Index count = first; 2 * count < states; count *= 2) {
       const MatrixX some = MatrixX::NullaryExpr(states, count, [&] { return random() / 2147483648.0 - 1; });
-      const MatrixX basis = orthonormal_columns(after_turn(some));
+      MatrixX basis = orthonormal_columns(after_turn(some));
       if (basis.cols() + spare <= count) return basis;
     }
     return MatrixX::Identity(states, states);
@@ -170,7 +170,7 @@ struct PrincipalModes {
   int near_zero = 0;
 };
 
-PrincipalModes principal_modes(std::vector<FloquetMotion> motions, const HarmonicShapes& shapes, double rate,
+PrincipalModes principal_modes(std::vector<FloquetMotion>&& motions, const HarmonicShapes& shapes, double rate,
                                double fastest) {
   PrincipalModes result;
   for (auto& [s, u, w] : motions) {
