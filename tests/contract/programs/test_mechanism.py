@@ -180,7 +180,7 @@ joints: {j: {type: rigid, nodes: [b, free]}}
         self.assertIn("massless     7 inner nodes of 'beam'\n", done.stdout)
         self.assertNotIn("against one moment alone", done.stdout)
         self.assertEqual(done.stdout.count("massless"), 2)
-        # The section is beside the node line: its own bending stiffness is pi/4 0.1^4 E = 1.5708e-4 E, far below EIz
+        # The section lies off the node line: its own bending stiffness is pi/4 0.1^4 E = 1.5708e-4 E, far below EIz
         # about the line.
         self.write("massless.yaml", "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, "
                    "nodes: [a, b], section: {circle: 0.1, young: 2, shear: 1, offset: [0.3, 0]}}}\n")
