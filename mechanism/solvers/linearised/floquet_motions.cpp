@@ -158,18 +158,6 @@ double fastest_rate_of(const PeriodicEquations& equations, const ModeOptions& op
   return std::max(further * fastest, std::abs(equations.rate()));
 }
 
-void sort_by_size(std::vector<HarmonicMode>& modes) {
-  std::stable_sort(modes.begin(), modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
-    return std::abs(a.mode.s) < std::abs(b.mode.s);
-  });
-}
-
-/// The principal exponents up to a rate, and the number of those that may be zero.
-struct PrincipalModes {
-  std::vector<HarmonicMode> modes;
-  int near_zero = 0;
-};
-
 PrincipalModes principal_modes(std::vector<FloquetMotion>&& motions, const HarmonicShapes& shapes, double rate,
                                double fastest) {
   PrincipalModes result;
@@ -198,6 +186,9 @@ std::vector<FloquetMotion> floquet_motions(const PeriodicEquations& equations, c
 
 bool vanishes_in_turn(Complex s, double rate) { return std::exp(s.real() * duration_of(rate)) < least_multiplier; }
 
+namespace {
+
+/// Returns the number of harmonics within which nearly everything of a motion lies.
 int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Complex s, double rate) {
   // Parts of slower motions that rounding leaves in a motion outgrow it over the turn.
   constexpr double least = 1e-5, most = 0.1, others = 1e-9;
@@ -214,47 +205,55 @@ int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, Comple
   return h;
 }
 
+}  // namespace
+
 Eigen::MatrixXcd within(const Eigen::MatrixXcd& amplitudes, int h) {
   const auto middle = static_cast<int>(amplitudes.cols() / 2);
   return h > middle ? widened(amplitudes, h) : Eigen::MatrixXcd(amplitudes.middleCols(middle - h, 2 * h + 1));
 }
 
-std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                                               const HarmonicModes& known, const ModeOptions& options) {
+void keep_necessary_harmonics(const HarmonicShapes& shapes, double rate, HarmonicModes& modes) {
+  for (const HarmonicMode& each : modes.modes)
+    if (each.mode.kind != ModeKind::rigid)
+      modes.harmonics = std::max(modes.harmonics, harmonics_of(shapes, each.u, each.mode.s, rate));
+  for (HarmonicMode& each : modes.modes) {
+    each.u = within(each.u, modes.harmonics);
+    each.w = within(each.w, modes.harmonics);
+  }
+}
+
+std::optional<PrincipalModes> find_by_monodromy(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                                const ModeOptions& options) {
   if (options.near) return std::nullopt;
-  constexpr int most_harmonics = 42;
   try {
     const double fastest = fastest_rate_of(equations, options);
-    PrincipalModes principal =
-        principal_modes(floquet_motions(equations, shapes, fastest, coarse_angle), shapes, equations.rate(), fastest);
-    for (const HarmonicMode& each : known.modes)
-      if (vanishes_in_turn(each.mode.s, equations.rate())) principal.modes.push_back(each);
-    sort_by_size(principal.modes);
-    HarmonicModes result;
-    result.states = known.states;
-    result.growing_besides = known.growing_besides;
-    for (const HarmonicMode& each : known.modes)
-      if (each.mode.kind == ModeKind::rigid) result.modes.push_back(each);
-    const auto rigid = static_cast<int>(result.modes.size());
-    if (principal.near_zero > 2 * rigid + 1) return std::nullopt;
-    const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
-    const auto count = options.below ? std::count_if(principal.modes.begin(), principal.modes.end(), slow)
-                                     : static_cast<std::ptrdiff_t>(options.count);
-    result.harmonics = known.harmonics;
-    const auto end = principal.modes.begin() + std::min(count, static_cast<std::ptrdiff_t>(principal.modes.size()));
-    for (auto each = principal.modes.begin(); each != end; ++each) {
-      result.harmonics = std::max(result.harmonics, harmonics_of(shapes, each->u, each->mode.s, equations.rate()));
-      result.modes.push_back(*each);
-    }
-    if (result.harmonics > most_harmonics) return std::nullopt;
-    for (HarmonicMode& each : result.modes) {
-      each.u = within(each.u, result.harmonics);
-      each.w = within(each.w, result.harmonics);
-    }
-    return result;
+    return principal_modes(floquet_motions(equations, shapes, fastest, coarse_angle), shapes, equations.rate(),
+                           fastest);
   } catch (const ComputationError&) {
     return std::nullopt;
   }
+}
+
+std::optional<HarmonicModes> slowest_modes(PrincipalModes principal, const HarmonicModes& known,
+                                           const HarmonicShapes& shapes, double rate, const ModeOptions& options) {
+  constexpr int most_harmonics = 42;
+  for (const HarmonicMode& each : known.modes)
+    if (vanishes_in_turn(each.mode.s, rate)) principal.modes.push_back(each);
+  sort_by_rate(principal.modes);
+  HarmonicModes result;
+  result.harmonics = known.harmonics;
+  result.states = known.states;
+  result.growing_besides = known.growing_besides;
+  for (const HarmonicMode& each : known.modes)
+    if (each.mode.kind == ModeKind::rigid) result.modes.push_back(each);
+  if (principal.near_zero > 2 * static_cast<int>(result.modes.size()) + 1) return std::nullopt;
+  const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
+  const auto count = options.below ? std::count_if(principal.modes.begin(), principal.modes.end(), slow)
+                                   : static_cast<std::ptrdiff_t>(options.count);
+  const auto end = principal.modes.begin() + std::min(count, static_cast<std::ptrdiff_t>(principal.modes.size()));
+  result.modes.insert(result.modes.end(), principal.modes.begin(), end);
+  keep_necessary_harmonics(shapes, rate, result);
+  return result.harmonics > most_harmonics ? std::nullopt : std::optional(std::move(result));
 }
 
 }  // namespace bielle::mechanism

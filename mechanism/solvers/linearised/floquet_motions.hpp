@@ -34,17 +34,27 @@ constexpr double coarse_angle = 0.4;  ///< sufficient as a start for continue_mo
 /// Whether a motion decays so much in a turn that the monodromy matrix does not show it.
 bool vanishes_in_turn(std::complex<double> s, double rate);
 
-/// Returns the number of harmonics within which nearly everything of a motion lies.
-int harmonics_of(const HarmonicShapes& shapes, const Eigen::MatrixXcd& u, std::complex<double> s, double rate);
-
 /// Returns the amplitudes of the harmonics -h .. h, zeros for those that are not given.
 Eigen::MatrixXcd within(const Eigen::MatrixXcd& amplitudes, int h);
 
-/// Finds the slowest motions besides the rigid ones, with as many harmonics as they need.
+/// Raises the number of harmonics until nearly everything of each motion lies within them, and leaves out the others.
+void keep_necessary_harmonics(const HarmonicShapes& shapes, double rate, HarmonicModes& modes);
+
+/// The motions up to a rate with their principal exponents, and the number of those that may be zero.
+struct PrincipalModes {
+  std::vector<HarmonicMode> modes;
+  int near_zero = 0;
+};
+
+/// Finds the motions that the monodromy matrix shows, at least as many as are asked for.
+/// @returns nothing if floquet_motions throws, or for a search near a frequency
+std::optional<PrincipalModes> find_by_monodromy(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                                const ModeOptions& options);
+
+/// Chooses the slowest modes, with as many harmonics as they need.
 /// @param known  modes with few harmonics, from which rigid modes and motions that vanish in a turn are taken
-/// @returns nothing if the monodromy matrix does not show the motions (floquet_motions), or if there are slow motions
-/// next to rigid ones
-std::optional<HarmonicModes> find_by_monodromy(const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                                               const HarmonicModes& known, const ModeOptions& options);
+/// @returns nothing if there are slow motions next to rigid ones, or too many harmonics are necessary
+std::optional<HarmonicModes> slowest_modes(PrincipalModes principal, const HarmonicModes& known,
+                                           const HarmonicShapes& shapes, double rate, const ModeOptions& options);
 
 }  // namespace bielle::mechanism

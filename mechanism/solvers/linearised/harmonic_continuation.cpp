@@ -92,6 +92,12 @@ void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen
   if (s.imag() < 0) s = std::conj(s);
 }
 
+void sort_by_rate(std::vector<HarmonicMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
+    return std::abs(a.mode.s) < std::abs(b.mode.s);
+  });
+}
+
 Modes HarmonicModes::found() const {
   Modes result;
   for (const HarmonicMode& each : modes) result.modes.push_back(each.mode);

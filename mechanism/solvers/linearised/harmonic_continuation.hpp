@@ -40,6 +40,8 @@ struct HarmonicModes {
   Modes found() const;
 };
 
+void sort_by_rate(std::vector<HarmonicMode>& modes);  ///< |s| ascending
+
 /// Returns the amplitudes with zeros for further harmonics.
 Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h);
 

@@ -71,12 +71,6 @@ void sort_by_distance(double frequency, std::vector<Mode>& modes) {
                    [&](const Mode& a, const Mode& b) { return std::abs(a.s - near) < std::abs(b.s - near); });
 }
 
-void sort_by_rate(std::vector<HarmonicMode>& modes) {
-  std::stable_sort(modes.begin(), modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
-    return std::abs(a.mode.s) < std::abs(b.mode.s);
-  });
-}
-
 }  // namespace
 
 /// Takes the principal modes. @returns whether there are enough
@@ -315,11 +309,13 @@ std::optional<HarmonicModes> HarmonicSearch::motions_over_turn(const ModeOptions
   const auto moving = [](const HarmonicModes& modes) {
     return std::count_if(modes.modes.begin(), modes.modes.end(), std::not_fn(is_rigid));
   };
+  const std::optional<PrincipalModes> shown = find_by_monodromy(equations_, shapes_, options);
+  if (!shown) return std::nullopt;
   // Motions that vanish in a turn are among the known ones: these must be so many that all are there.
   constexpr int tries = 3;
   ModeOptions wider = options;
   for (int k = 0; k < tries; ++k) {
-    std::optional<HarmonicModes> modes = find_by_monodromy(equations_, shapes_, known, options);
+    std::optional<HarmonicModes> modes = slowest_modes(*shown, known, shapes_, equations_.rate(), options);
     if (modes) modes = continue_modes(equations_, shapes_, *modes, modes->harmonics, Copies::largest);
     if (!modes) return std::nullopt;
     modes->all = is_complete(*modes);

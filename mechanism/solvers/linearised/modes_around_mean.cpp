@@ -192,12 +192,7 @@ std::optional<HarmonicModes> find_modes_over_turn(const PeriodicEquations& equat
     std::optional<HarmonicModes> found = SearchAround(equations, shapes, mean, all).among(motions);
     if (!found) return std::nullopt;
     found->harmonics = 1;
-    for (const HarmonicMode& each : found->modes)
-      found->harmonics = std::max(found->harmonics, harmonics_of(shapes, each.u, each.mode.s, equations.rate()));
-    for (HarmonicMode& each : found->modes) {
-      each.u = within(each.u, found->harmonics);
-      each.w = within(each.w, found->harmonics);
-    }
+    keep_necessary_harmonics(shapes, equations.rate(), *found);
     return found;
   } catch (const ComputationError&) {
     return std::nullopt;
